@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Nodes as processes, and clients in this one, over real DDS on a domain of this session's own."""
+import os
+from pathlib import Path
+import socket
+import sys
+
+import pytest
+
+try:
+    from processes import Client, Process
+except ImportError:  # no ROS 2 here: nothing in this folder can run
+    collect_ignore_glob = ['test_*.py']
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope='session', autouse=True)
+def domain(tmp_path_factory):
+    """A ROS domain id that no other test session on this machine has; set for all processes."""
+    claim, number = claimed_domain()
+    patch = pytest.MonkeyPatch()
+    patch.setenv('ROS_DOMAIN_ID', str(number))
+    patch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    patch.setenv('ROS_LOG_DIR', str(tmp_path_factory.mktemp('log')))
+    patch.setenv('PYTHONPATH', str(ROOT), prepend=os.pathsep)
+    for name in ('ROS_STATIC_PEERS', 'ROS_DISCOVERY_SERVER', 'ROS_LOCALHOST_ONLY'):
+        patch.delenv(name, raising=False)
+    if 'AMENT_PREFIX_PATH' not in os.environ:
+        patch.setenv('AMENT_PREFIX_PATH', sys.prefix)
+    yield number
+    patch.undo()
+    claim.close()
+
+
+def claimed_domain():
+    """A socket and a domain id, ours while the socket is bound: the sessions of a machine share ports."""
+    for number in range(1, 102):
+        claim = socket.socket()
+        try:
+            claim.bind(('127.0.0.1', 18000 + number))
+            return claim, number
+        except OSError:
+            claim.close()
+    raise RuntimeError('every ROS domain of this machine is taken')
+
+
+@pytest.fixture(scope='module')
+def start(domain):
+    """`start('sim_node', '--ros-args', ...)` gives a running `Process`, stopped when the module ends."""
+    processes = []
+
+    def start(module, *arguments, environment=None):
+        processes.append(Process(module, *arguments, environment=environment))
+        return processes[-1]
+    yield start
+    for process in processes:
+        process.stop()
+
+
+@pytest.fixture
+def client(make_client):
+    """A `Client` in the root namespace."""
+    return make_client()
+
+
+@pytest.fixture
+def make_client(domain):
+    """`make_client(namespace)` gives a `Client`, closed after the test."""
+    clients = []
+
+    def make(namespace=''):
+        clients.append(Client(namespace))
+        return clients[-1]
+    yield make
+    for client in clients:
+        client.close()

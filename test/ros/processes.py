@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What tests over DDS share: processes to start, a client to talk to them, and patience."""
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+import rclpy
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+
+DEADLINE = 90.0  # s: a first start compiles
+
+
+def wait_until(condition, what='it happened', seconds=DEADLINE):
+    """What `condition()` returns once that is true; fails with `what` if it never is."""
+    deadline = time.monotonic() + seconds
+    while time.monotonic() < deadline:
+        found = condition()
+        if found:
+            return found
+        threading.Event().wait(0.01)
+    pytest.fail(f'{seconds} s passed before {what}')
+
+
+class Process:
+    """A node or tool in a process of its own, and all it has written so far (`output`)."""
+
+    def __init__(self, module, *arguments, environment=None):
+        command = [sys.executable, '-u', '-m', f'golf_sim_ros.{module}', *arguments]
+        self.popen = subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            env={**os.environ, **(environment or {})}, start_new_session=True)
+        self.pid = self.popen.pid
+        self.lines = []
+        self.reader = threading.Thread(target=lambda: self.lines.extend(self.popen.stdout), daemon=True)
+        self.reader.start()
+
+    @property
+    def output(self):
+        return ''.join(self.lines)
+
+    def wait_for(self, text, seconds=DEADLINE):
+        """The first line of output that contains `text`."""
+        wait_until(lambda: text in self.output or self.popen.poll() is not None,
+                   f'{text!r} in the output:\n{self.output}', seconds)
+        found = [line for line in self.lines if text in line]
+        assert found, f'ended with code {self.popen.poll()} without {text!r}:\n{self.output}'
+        return found[0]
+
+    def wait(self, seconds=DEADLINE):
+        """Exit code once it ends by itself."""
+        code = self.popen.wait(seconds)
+        self.reader.join(seconds)
+        return code
+
+    def stop(self, number=signal.SIGINT):
+        """Exit code after signal `number`; a process that does not obey within 20 s is killed."""
+        if self.popen.poll() is None:
+            self.popen.send_signal(number)
+        try:
+            return self.wait(20.0)
+        except subprocess.TimeoutExpired:
+            os.killpg(self.pid, signal.SIGKILL)
+            self.popen.wait()
+            pytest.fail(f'signal {number} did not end process {self.pid}:\n{self.output}')
+
+
+def parameters(namespace='', **values):
+    """Arguments of a node in `namespace` with these parameters."""
+    remap = ['-r', f'__ns:={namespace}'] if namespace else []
+    given = [word for name, value in values.items() for word in ('-p', f'{name}:={value}')]
+    return ['--ros-args', *remap, *given]
+
+
+class Client:
+    """A plain rclpy node that listens in a thread of its own."""
+
+    def __init__(self, namespace=''):
+        self.context = Context()
+        rclpy.init(context=self.context, domain_id=int(os.environ['ROS_DOMAIN_ID']))
+        self.node = rclpy.create_node(f'client_{id(self)}', namespace=namespace, context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.thread = threading.Thread(target=self.executor.spin, daemon=True)
+        self.thread.start()
+
+    def listen(self, kind, topic, qos=10):
+        """A list of all messages on `topic` from now on, in order of arrival."""
+        heard = []
+        self.node.create_subscription(kind, topic, heard.append, qos)
+        return heard
+
+    def publisher(self, kind, topic, qos=10, wait=True):
+        """A publisher on `topic`, after somebody subscribed to it (unless `wait` is false)."""
+        publisher = self.node.create_publisher(kind, topic, qos)
+        if wait:
+            wait_until(publisher.get_subscription_count, f'somebody subscribed to {topic}')
+        return publisher
+
+    def call(self, kind, service, request):
+        """The response of `service` to `request`."""
+        client = self.node.create_client(kind, service)
+        assert client.wait_for_service(DEADLINE), f'nobody offers {service}'
+        future = client.call_async(request)
+        wait_until(future.done, f'{service} answered')
+        self.node.destroy_client(client)
+        return future.result()
+
+    def close(self):
+        self.executor.shutdown()
+        self.thread.join()
+        self.node.destroy_node()
+        self.context.try_shutdown()
