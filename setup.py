@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How pip and colcon install golf_sim_ros."""
+
+from pathlib import Path
+
+from setuptools import find_packages, setup
+
+PACKAGE = 'golf_sim_ros'
+SHARE = f'share/{PACKAGE}'
+EXECUTABLES = {
+    'sim_node': 'golf_sim_ros.sim_node:main',
+    'wind_node': 'golf_sim_ros.wind_node:main',
+    'shoot': 'golf_sim_ros.tools.shoot:main',
+}
+
+# ROS 2 as wheels from PyPI, for machines without it: Linux x86-64 only.
+WHEELS = ['rclpy', 'rmw-fastrtps-cpp', 'std-msgs', 'std-srvs', 'geometry-msgs', 'visualization-msgs', 'diagnostic-msgs']
+
+# Without numba everything still works, slowly, so it is asked for only where it comes as a wheel.
+NUMBA = 'numba; python_version < "3.15" and (' + ' or '.join(
+    f'platform_machine == "{machine}"' for machine in ('x86_64', 'AMD64', 'aarch64', 'arm64')) + ')'
+
+
+def folders(top):
+    """Entries for data_files that copy a folder with all that is in it."""
+    inside = [path for path in sorted(Path(top).rglob('*')) if path.is_file() and path.suffix != '.pyc']
+    return [(f'{SHARE}/{path.parent.as_posix()}', [path.as_posix()]) for path in inside]
+
+
+setup(
+    name=PACKAGE,
+    version='0.1.0',
+    description='Golf as a physics simulation on ROS 2',
+    long_description=Path('README.md').read_text(encoding='utf-8'),
+    long_description_content_type='text/markdown',
+    license='Apache-2.0',
+    maintainer='golf_sim_ros maintainers',
+    maintainer_email='maintainers@golf-sim-ros.example.org',
+    python_requires='>=3.10',
+    packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    data_files=[
+        ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
+        (SHARE, ['package.xml']),
+        # pip puts console_scripts into bin/, where `ros2 run` does not look: it finds these.
+        (f'lib/{PACKAGE}', [f'scripts/{name}' for name in EXECUTABLES]),
+        *folders('config'), *folders('launch'), *folders('rviz'),
+    ],
+    entry_points={'console_scripts': [f'{name} = {target}' for name, target in EXECUTABLES.items()]},
+    install_requires=['numpy', 'pyyaml', NUMBA],
+    extras_require={
+        'ros': [f'ros-jazzy-{name}' for name in WHEELS],
+        'ros-kilted': [f'ros-kilted-{name}' for name in WHEELS],
+        'plot': ['matplotlib'],
+        'test': ['pytest', 'hypothesis', 'scipy', 'flake8', 'import-linter'],
+    },
+    zip_safe=False,
+)
