@@ -5,6 +5,7 @@ from pathlib import Path
 
 from setuptools import find_packages, setup
 
+HERE = Path(__file__).resolve().parent    # also where colcon runs a symlink to this file
 PACKAGE = 'golf_sim_ros'
 SHARE = f'share/{PACKAGE}'
 EXECUTABLES = {
@@ -31,7 +32,7 @@ setup(
     name=PACKAGE,
     version='0.1.0',
     description='Golf as a physics simulation on ROS 2',
-    long_description=Path('README.md').read_text(encoding='utf-8'),
+    long_description=(HERE / 'README.md').read_text(encoding='utf-8'),
     long_description_content_type='text/markdown',
     license='Apache-2.0',
     maintainer='golf_sim_ros maintainers',

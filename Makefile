@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+#
+# make play    three shots over ROS 2: a drive, an approach, a putt
+# make sim     the simulator and the wind, until Ctrl-C
+# make test    all tests; PYTEST_ARGS='-k bounce' for some
+#
+# Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
+
+PYTHON ?= python3
+VENV ?= .venv
+PYTEST_ARGS ?=
+
+# Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
+unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
+
+.PHONY: play sim test environment clean
+
+play: environment
+	@$(VENV)/bin/python tools/play.py
+
+sim: environment
+	@$(VENV)/bin/python tools/sim.py
+
+test: environment
+	@$(VENV)/bin/python -m pytest $(PYTEST_ARGS)
+
+environment:
+	@command -v $(PYTHON) > /dev/null || { echo 'golf_sim_ros: $(PYTHON) is missing: Python 3.10 or newer is needed' >&2; exit 1; }
+	@$(PYTHON) tools/make_environment.py $(VENV)
+
+clean:
+	rm -rf $(VENV) build install log *.egg-info

