@@ -1,0 +1,173 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Values from a file, checked: a checker returns its value or says what is wrong with it.
+
+A checker is called with a value and its key, ``ground[3].normal``, and raises `CourseError` with one
+line: key, value, what is allowed. Functions named after a thing (`number`, `polygon`) are checkers or,
+where they need to know more, make one.
+"""
+from difflib import get_close_matches
+from math import hypot, inf
+from reprlib import Repr
+
+FAR = 1e6  # m: beyond this no coordinate is meant
+
+_SHORT = Repr()
+_SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxother, _SHORT.maxdict = 3, 80, 80, 4
+
+
+class CourseError(ValueError):
+    """A course or material that cannot be used: one line with file, key, value and what is allowed."""
+
+
+def shown(value):
+    """`value` as a person may have written it, short and on one line."""
+    try:
+        return 'nothing' if value is None else _SHORT.repr(value)
+    except ValueError:  # Python refuses to print integers of thousands of digits
+        return 'a very long number'
+
+
+def below(key, name):
+    """Key of what is called `name` inside of `key`."""
+    return f'{key}.{name}' if key else name
+
+
+def refused(key, value, allowed):
+    """Error that says what `key` must be."""
+    return CourseError(f'{key or "the file"} {shown(value)} must be {allowed}')
+
+
+def unknown(what, value, choices):
+    """Error for a `value` that is none of `choices`, with the one that was probably meant."""
+    known = sorted(choices)
+    close = get_close_matches(value, known, 1) if isinstance(value, str) else []
+    hint = f'; did you mean {close[0]!r}?' if close else ''
+    return CourseError(f'{what} {shown(value)} is unknown; known: {", ".join(known)}{hint}')
+
+
+def number(least=-FAR, most=FAR):
+    """Checker of a finite number from `least` to `most`."""
+    allowed = f'a number from {least:g} to {most:g}'
+
+    def check(value, key):
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            raise refused(key, value, allowed)
+        if not least <= value <= most:  # refuses nan too
+            raise refused(key, value, allowed)
+        return float(value)
+    return check
+
+
+def flag(value, key):
+    """True or false."""
+    if not isinstance(value, bool):
+        raise refused(key, value, 'true or false')
+    return value
+
+
+def text(value, key):
+    """A line of text that is not empty."""
+    if not isinstance(value, str) or not value.strip() or not value.isprintable():
+        raise refused(key, value, 'a line of text')
+    return value
+
+
+def one_of(choices):
+    """Checker of a name; returns what `choices`, a dict, holds under that name."""
+    def check(value, key):
+        if not isinstance(value, str) or value not in choices:
+            raise unknown(key, value, choices)
+        return choices[value]
+    return check
+
+
+def list_of(check_one, allowed, least=0, most=inf):
+    """Checker of a list of `least` to `most` entries; returns a tuple."""
+    def check(value, key):
+        if not isinstance(value, list) or not least <= len(value) <= most:
+            raise refused(key, value, allowed)
+        return tuple(check_one(v, f'{key}[{i}]') for i, v in enumerate(value))
+    return check
+
+
+def vector(size, least=-FAR, most=FAR):
+    """Checker of a list of `size` numbers; returns a tuple of floats."""
+    example = ', '.join('0' * (size - 1) + '1')
+    return list_of(number(least, most), f'{size} numbers, as in [{example}]', size, size)
+
+
+def direction(value, key):
+    """Three numbers, not all 0; returns the unit vector."""
+    x, y, z = vector(3)(value, key)
+    size = hypot(x, y, z)
+    if size < 1e-9:
+        raise refused(key, value, 'a direction, and (almost) zero has none')
+    return x / size, y / size, z / size
+
+
+def polygon(value, key):
+    """Corners [x, y] of a polygon; returns a tuple of them. A last corner equal to the first is dropped."""
+    corners = list_of(vector(2), 'a list of 3 or more corners [x, y]', 3)(value, key)
+    if len(corners) > 3 and corners[0] == corners[-1]:
+        corners = corners[:-1]
+    sides = list(zip(corners, corners[1:] + corners[:1]))
+    for i, side in enumerate(sides):
+        if side[0] == side[1]:
+            raise refused(key, value, f'a polygon, but corner {list(side[0])} comes twice in a row')
+        for j in range(i):
+            if _meet(*sides[j], *side):
+                raise refused(key, value, f'a polygon without crossings, but its sides {j} and {i} meet')
+    return corners
+
+
+def _meet(a, b, c, d):
+    """Whether the sides ab and cd of a polygon share more than the corner between neighbours."""
+    if b == c or d == a:
+        corner, one, other = (b, a, d) if b == c else (a, b, c)
+        return _turn(one, corner, other) == 0 and any(
+            (p - o) * (q - o) > 0 for p, q, o in zip(one, other, corner))
+    apart = any(max(a[k], b[k]) < min(c[k], d[k]) or max(c[k], d[k]) < min(a[k], b[k]) for k in (0, 1))
+    return not apart and _turn(a, b, c) * _turn(a, b, d) <= 0 and _turn(c, d, a) * _turn(c, d, b) <= 0
+
+
+def _turn(a, b, c):
+    """1 where the way from `a` over `b` to `c` turns left, -1 where it turns right, 0 straight."""
+    area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    return (area > 0) - (area < 0)
+
+
+def mapping(value, key):
+    """A mapping of names to anything."""
+    if not isinstance(value, dict):
+        raise refused(key, value, 'a mapping (key: value)')
+    return value
+
+
+def fields(checkers, needed=()):
+    """Checker of a mapping with a checker for every name in it; returns a dict."""
+    def check(value, key):
+        place = f'{key}: ' if key else ''
+        for name in mapping(value, key):
+            if name not in checkers:
+                raise unknown(f'{place}key', name, checkers)
+        for name in needed:
+            if name not in value:
+                raise CourseError(f'{place}key {name!r} is missing; needed: {", ".join(needed)}')
+        return {name: checkers[name](v, below(key, name)) for name, v in value.items()}
+    return check
+
+
+def record(kind, checkers, needed=()):
+    """Checker of a mapping; returns a record of `kind`, a NamedTuple, with defaults for what is left out."""
+    read = fields(checkers, needed)
+    return lambda value, key: kind(**read(value, key))
+
+
+def tagged(tag, kinds):
+    """Checker of a mapping whose key `tag` names one of `kinds`, a dict of checkers for the rest of it."""
+    def check(value, key):
+        if tag not in mapping(value, key):
+            raise CourseError(f'{key}: key {tag!r} is missing; it is one of: {", ".join(sorted(kinds))}')
+        read = one_of(kinds)(value[tag], below(key, tag))
+        return read({name: v for name, v in value.items() if name != tag}, key)
+    return check

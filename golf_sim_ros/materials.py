@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Materials: the shipped ones, one YAML file each, and those that a course adds or changes."""
+from .checked import CourseError, below, fields, mapping, number, record, tagged, text, unknown, vector
+from .physics.material import PENNER, Material, Restitution, rolling_resistance_of_stimp
+from .share import share
+from .yaml_file import read_yaml
+
+LAWS = {
+    'penner': lambda value, key: fields({})(value, key) or PENNER,
+    'quadratic': record(Restitution, {'e0': number(0, 1), 'e1': number(-10, 10), 'e2': number(-10, 10),
+                                      'floor': number(0, 1)}, needed=('e0',)),
+}
+
+
+def restitution(value, key):
+    """A number, or a law of the approach speed; returns `Restitution`."""
+    if isinstance(value, dict):
+        return tagged('law', LAWS)(value, key)
+    return Restitution(number(0, 1)(value, key))
+
+
+FIELDS = {
+    'restitution': restitution,
+    'tangential_restitution': number(-1, 1),
+    'static_friction': number(0),
+    'dynamic_friction': number(0),
+    'rolling_resistance': number(0),
+    'stimp': number(0.1, 100),
+    'pivot_friction': number(0),
+    'softness': number(0, 100),
+    'color': vector(3, 0, 1),
+}
+
+
+def entry(value, key, checkers=FIELDS):
+    """What a file says of one material; returns a dict of `Material`'s fields, and perhaps 'like'."""
+    content = fields(checkers)(value, key)
+    if 'stimp' in content:
+        if 'rolling_resistance' in content:
+            raise CourseError(f'{key or "material"} has both stimp and rolling_resistance; one is allowed')
+        content['rolling_resistance'] = rolling_resistance_of_stimp(content.pop('stimp'))
+    return content
+
+
+def shipped():
+    """Entries of the shipped materials by name, and the bytes of their files by name."""
+    entries, sources = {}, {}
+    for path in sorted(share('config', 'materials').glob('*.yaml')):
+        sources[path.stem], content = read_yaml(path)
+        try:
+            entries[path.stem] = entry(content, '')
+        except CourseError as error:
+            raise CourseError(f'{path}: {error}') from None
+    return entries, sources
+
+
+def materials(value, base):
+    """`Material` records by name: those of `base` and a course's own.
+
+    Parameters
+    ----------
+    value : dict
+        The section ``materials`` of a course file.
+    base : dict of str to dict
+        The shipped entries.
+    """
+    own = {text(name, 'materials: name'): entry(content, f'materials.{name}', {**FIELDS, 'like': text})
+           for name, content in mapping(value, 'materials').items()}
+    return {name: Material(name=name, **_filled(name, own, base)) for name in {**base, **own}}
+
+
+def _filled(name, own, base, way=()):
+    """All fields of material `name`, with those of the material that it is like.
+
+    A material is like the shipped one of its name where it does not say otherwise.
+    """
+    if name not in own:
+        return base[name]
+    content = dict(own[name])
+    like = content.pop('like', None)
+    key = below(f'materials.{name}', 'like')
+    if like is None or like == name and name in base:
+        return {**base.get(name, {}), **content}
+    if like not in own and like not in base:
+        raise unknown(key, like, {*own, *base} - {name})
+    if like == name or like in way:
+        raise CourseError(f'{key} {like!r} leads back to itself: {" -> ".join((*way, name, like))}; '
+                          'a material may not be like itself')
+    return {**_filled(like, own, base, (*way, name)), **content}
