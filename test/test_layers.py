@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Imports point one way only, and the physics needs no ROS."""
+
+import ast
+from pathlib import Path
+import subprocess
+import sys
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PHYSICS = sorted((ROOT / 'golf_sim_ros' / 'physics').rglob('*.py'))
+ROS = ('rclpy', 'rcl_interfaces', 'std_msgs', 'std_srvs', 'geometry_msgs', 'visualization_msgs',
+       'diagnostic_msgs', 'rosgraph_msgs', 'builtin_interfaces', 'ament_index_python', 'launch', 'launch_ros')
+
+
+def test_the_contracts_of_import_linter_hold():
+    pytest.importorskip('importlinter')
+    code = 'from importlinter.cli import lint_imports_command; lint_imports_command()'
+    check = subprocess.run([sys.executable, '-c', code, '--no-cache'], cwd=ROOT, capture_output=True, text=True)
+    assert check.returncode == 0, check.stdout + check.stderr
+    assert '0 broken' in check.stdout
+
+
+@pytest.mark.parametrize('module, missing', [
+    ('golf_sim_ros.physics', (*ROS, 'yaml', 'matplotlib', 'scipy')),
+    ('golf_sim_ros.course', ROS),
+    ('golf_sim_ros.wind', ROS),
+], ids=lambda value: value if isinstance(value, str) else '')
+def test_what_is_not_a_node_imports_where_ros_is_not_installed(module, missing):
+    code = f'import sys; sys.modules.update(dict.fromkeys({missing!r})); import {module}'
+    run = subprocess.run([sys.executable, '-c', code], cwd=ROOT, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+
+
+def test_one_file_of_the_physics_imports_numba():
+    assert [path.name for path in PHYSICS if 'numba' in imported(path)] == ['_compile.py']
+
+
+def imported(path):
+    """Top-level names of the modules that the file at `path` imports, wherever in it."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+        if isinstance(node, ast.Import):
+            found |= {alias.name.partition('.')[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.level == 0:
+            found.add(node.module.partition('.')[0])
+    return found

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What every file of the project keeps to."""
+
+import ast
+from pathlib import Path
+import re
+import subprocess
+import sys
+
+import pytest
+
+import golf_sim_ros
+
+ROOT = Path(__file__).resolve().parents[1]
+FOLDERS = ('golf_sim_ros', 'test', 'tools', 'launch', 'benchmarks', 'docs')
+SOURCES = [ROOT / 'setup.py', *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob('*.py')))]
+EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
+PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
+
+
+def name(path):
+    """How a test calls `path`."""
+    return path.relative_to(ROOT).as_posix()
+
+
+def test_flake8_finds_nothing():
+    pytest.importorskip('flake8')
+    check = subprocess.run([sys.executable, '-m', 'flake8', *map(str, SOURCES + EXECUTABLES)],
+                           cwd=ROOT, capture_output=True, text=True)
+    assert check.returncode == 0, check.stdout + check.stderr
+
+
+@pytest.mark.parametrize('path', SOURCES + EXECUTABLES, ids=name)
+def test_a_file_starts_with_its_licence_and_says_what_it_is(path):
+    text = path.read_text(encoding='utf-8')
+    first = text.removeprefix('#!/usr/bin/env python3\n').partition('\n')[0]
+    assert first == '# SPDX-License-Identifier: Apache-2.0'
+    assert ast.get_docstring(ast.parse(text)), 'has no docstring'
+
+
+@pytest.mark.parametrize('path', PACKAGE, ids=name)
+def test_all_that_is_public_has_a_docstring_with_a_line_that_stands_alone(path):
+    tree = ast.parse(path.read_text(encoding='utf-8'))
+    wrong = [f'{name(path)}:{node.lineno} {title}' for title, node in public(tree) if not well_described(node)]
+    assert not wrong
+
+
+def public(tree, inside=''):
+    """Name and node of the module-level functions and classes of `tree` and their methods, if public."""
+    for node in tree.body:
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
+            if not node.name.startswith('_'):
+                yield inside + node.name, node
+                if isinstance(node, ast.ClassDef):
+                    yield from public(node, inside=f'{node.name}.')
+
+
+def well_described(node):
+    """Whether the docstring of `node` is one line, or a first line and an empty one before the rest.
+
+    A property or setter may leave it out: its name and class say what it is.
+    """
+    docstring = ast.get_docstring(node)
+    if docstring is None:
+        return bool(getattr(node, 'decorator_list', None))
+    lines = docstring.splitlines()
+    return bool(lines[0].strip()) and (len(lines) == 1 or not lines[1].strip())
+
+
+def test_the_licence_file_is_the_whole_apache_licence():
+    text = (ROOT / 'LICENSE').read_text(encoding='utf-8')
+    for part in ('Version 2.0, January 2004', '9. Accepting Warranty', 'END OF TERMS AND CONDITIONS'):
+        assert part in text
+
+
+def test_the_version_is_the_same_everywhere():
+    manifest = (ROOT / 'package.xml').read_text(encoding='utf-8')
+    setup = (ROOT / 'setup.py').read_text(encoding='utf-8')
+    assert re.search(r'<version>(.*)</version>', manifest)[1] == golf_sim_ros.__version__
+    assert re.search(r"version='(.*)'", setup)[1] == golf_sim_ros.__version__
