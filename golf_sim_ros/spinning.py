@@ -8,6 +8,8 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
 
+from .environment import complete_environment
+
 try:
     from rclpy.experimental import EventsExecutor
 except ImportError:  # rclpy before Jazzy's 7.1.5
@@ -24,6 +26,7 @@ def run(make_node, args=None):
     what a user can put right (`REFUSED`), the log has one line and the code is 1.
     """
     on_signal(signal.default_int_handler)
+    complete_environment()
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     try:
         node = checked(make_node)

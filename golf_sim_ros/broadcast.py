@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All that `sim_node` publishes, with the qualities of service and why."""
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
+from rclpy.event_handler import PublisherEventCallbacks
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
+
+from . import messages
+from .diagnosis import diagnostic
+from .markers import course_markers
+from .play_markers import Scene
+
+STREAM = QoSProfile(depth=10)  # reliable, volatile: only what is new counts
+POINTS = QoSProfile(depth=100)  # a bouncing ball makes many at once
+# Nothing of it may be missed: who joins late or loses the link for a while gets the last ones.
+EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Broadcast:
+    """Publishers, and what is needed to write their messages.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Who publishes. Simulated time begins now, on its clock.
+    world : World
+    frame : str
+        Frame of every stamp.
+    on_viewer, on_follower : callable
+        Called when somebody subscribes to the course's markers, or to a ball.
+    """
+
+    def __init__(self, node, world, frame, on_viewer, on_follower):
+        self.node, self.world, self.frame = node, world, frame
+        self.began = node.get_clock().now().nanoseconds
+        self.scene = Scene(world)
+        self.open_balls(on_match(on_follower))
+        make = node.create_publisher
+        self.collisions = make(String, 'collisions', EVENTS)
+        self.results = make(String, 'shot/result', EVENTS)
+        self.course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
+        self.play = make(MarkerArray, 'play/markers', STREAM)
+        self.diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
+
+    def open_balls(self, matched):
+        """Publishers of each ball, by name."""
+        make, names = self.node.create_publisher, self.world.names
+        self.poses = {name: make(PoseStamped, f'{name}/pose', STREAM, event_callbacks=matched)
+                      for name in names}
+        self.twists = {name: make(TwistStamped, f'{name}/twist', STREAM, event_callbacks=matched)
+                       for name in names}
+        self.contacts = {name: make(PointStamped, f'{name}/contact', POINTS) for name in names}
+
+    def head(self, time):
+        """Header of a message about simulated `time`."""
+        return messages.header(self.frame, self.began, time)
+
+    def tell_ball(self, name, orientation):
+        """Pose and twist of a ball."""
+        head, ball = self.head(self.world.time), self.world[name]
+        self.poses[name].publish(messages.pose(head, ball, orientation))
+        self.twists[name].publish(messages.twist(head, ball))
+
+    def tell_collision(self, collision):
+        """A contact, as JSON and as a point."""
+        self.collisions.publish(messages.collision_json(collision))
+        self.contacts[collision.ball].publish(messages.contact(self.head(collision.time), collision))
+        self.scene.contacts.append(collision.position)
+
+    def tell_scene(self, wind):
+        """Markers of the play."""
+        self.play.publish(self.scene.markers(self.head(self.world.time), self.world, wind))
+
+    def tell_course(self):
+        """Markers of the course."""
+        self.course.publish(course_markers(self.world.course, self.frame))
+
+    def tell_diagnosis(self, slow, values):
+        """How the simulation does."""
+        now = self.node.get_clock().now().to_msg()
+        name = f'{self.node.get_fully_qualified_name()}: play'
+        self.diagnostics.publish(diagnostic(now, name, slow, values))
+
+
+def on_match(callback):
+    """Event callbacks of a publisher that call `callback` whenever one more subscription matches."""
+    return PublisherEventCallbacks(
+        matched=lambda status: callback() if status.current_count_change > 0 else None)

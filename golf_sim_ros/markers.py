@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The course as markers: one list of triangles a material, and what stands on the ground."""
+from functools import singledispatch
+
+from geometry_msgs.msg import Point
+import numpy as np
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker, MarkerArray
+
+from .physics import ground_height
+from .physics.ground.flat import frame
+from .physics.ground.patch import Patch
+from .physics.ground.plane import Plane
+from .slabs import triangles
+
+MARGIN = 60.0  # m of an endless plane that are drawn around everything else
+HOLE_DIAMETER = 0.108  # m, Rules of Golf
+FLAGSTICK = (0.02, 2.13)  # m: diameter and height, as the USGA recommends
+FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the hole
+TEE_MARKERS = 4.0  # m from one to the other
+UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
+BLACK, WHITE, RED = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.85, 0.1, 0.1)
+
+
+def course_markers(course, frame_id):
+    """MarkerArray of `course`, stamp 0 so that viewers use their newest transform."""
+    by_material = {}
+    for number, shape in enumerate(course.ground):
+        found = by_material.setdefault(shape.material, [])
+        found.extend(corner for triangle in surface(shape, course, number) for corner in triangle)
+    lists = [ground_marker(number, material, corners)
+             for number, (material, corners) in enumerate(by_material.items()) if corners]
+    markers = [*lists, *tee(course), *hole(course)]
+    for marker in markers:
+        marker.header.frame_id = frame_id
+    return MarkerArray(markers=markers)
+
+
+def ground_marker(number, material, corners):
+    """TRIANGLE_LIST of all that is of `material`."""
+    made = marker('ground', number, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), material.color)
+    made.points = points(corners)
+    return made
+
+
+@singledispatch
+def surface(shape, course, number):
+    """Triangles of three (x, y, z) that show `shape`, entry `number` of the ground of `course`."""
+    raise TypeError(f'nothing is known about drawing a {type(shape).__name__}')
+
+
+@surface.register
+def _plane(shape: Plane, course, number):
+    if abs(shape.normal[2]) < UPRIGHT:
+        return wall(shape)
+    return lifted(shape.point, shape.normal, outskirts(course), covered(shape, course, number))
+
+
+@surface.register
+def _patch(shape: Patch, course, number):
+    corners = rectangle(shape)
+    if abs(shape.normal[2]) < UPRIGHT:
+        return [corners[:3], [corners[0], *corners[2:]]]
+    outline = [tuple(corner[:2]) for corner in corners]
+    return lifted(shape.center, shape.normal, outline, covered(shape, course, number))
+
+
+def rectangle(patch):
+    """Four corners of `patch`."""
+    _, along, across = frame(patch.normal, patch.heading)
+    along, across = 0.5 * patch.length * along, 0.5 * patch.width * across
+    return [np.add(patch.center, turn) for turn in
+            (along + across, across - along, -along - across, along - across)]
+
+
+def wall(plane):
+    """Two triangles of an upright `plane`, as wide and high as `MARGIN`."""
+    return _patch(Patch(plane.point, plane.normal, 0.0, MARGIN, MARGIN), None, 0)
+
+
+def lifted(place, normal, outline, cuts):
+    """Triangles of `outline` without `cuts`, in the plane through `place`."""
+    def height(x, y):
+        return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
+    return [[(x, y, height(x, y)) for x, y in triangle] for triangle in triangles(outline, cuts)]
+
+
+def covered(shape, course, number):
+    """Polygons where `shape` is not seen: its cuts, and later patches in the same plane."""
+    later = [patch for patch in course.ground[number + 1:]
+             if isinstance(patch, Patch) and not patch.cut and coplanar(shape, patch)]
+    return [*shape.cut, *([tuple(corner[:2]) for corner in rectangle(patch)] for patch in later)]
+
+
+def coplanar(shape, patch):
+    """Whether `patch` lies in the plane of `shape`."""
+    normal = frame(shape.normal, 0.0)[0]
+    place = shape.point if isinstance(shape, Plane) else shape.center
+    parallel = abs(frame(patch.normal, 0.0)[0] @ normal) > 1 - 1e-12
+    return parallel and abs(np.subtract(patch.center, place) @ normal) < 1e-6
+
+
+def outskirts(course):
+    """Corners of a rectangle around all that lies on `course`, `MARGIN` wide."""
+    places = [course.tee, *([course.hole] if course.hole else []), *(course.bounds or ())]
+    for shape in course.ground:
+        corners = rectangle(shape) if isinstance(shape, Patch) else sum(shape.cut, ())
+        places += [tuple(corner[:2]) for corner in corners]
+    low, high = np.min(places, 0) - MARGIN, np.max(places, 0) + MARGIN
+    return (low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])
+
+
+def tee(course):
+    """The two balls between which the tee is."""
+    made = marker('tee', 0, Marker.SPHERE_LIST, (0.15, 0.15, 0.15), WHITE)
+    sides = [(course.tee[0], course.tee[1] + 0.5 * side * TEE_MARKERS) for side in (1, -1)]
+    found = [ground_height(course, *side) for side in sides]
+    made.points = points((*side, place[0]) for side, place in zip(sides, found) if place)
+    return [made]
+
+
+def hole(course):
+    """Disc, flagstick and flag; nothing without a hole."""
+    if course.hole is None:
+        return []
+    x, y = course.hole
+    z = ground_height(course, x, y)[0]
+    disc = marker('hole', 0, Marker.CYLINDER, (HOLE_DIAMETER, HOLE_DIAMETER, 0.004), BLACK)
+    put(disc, x, y, z)
+    return [disc, *flagstick(x, y, z)] if course.flagstick else [disc]
+
+
+def flagstick(x, y, z):
+    """Stick and flag over a hole at `x`, `y`, `z`."""
+    diameter, height = FLAGSTICK
+    stick = marker('hole', 1, Marker.CYLINDER, (diameter, diameter, height), WHITE)
+    put(stick, x, y, z + 0.5 * height)
+    flag = marker('hole', 2, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), RED)
+    flag.points = points((x + ahead, y, z + over) for ahead, over in FLAG)
+    return [stick, flag]
+
+
+def marker(namespace, number, kind, scale, color):
+    """Marker of `kind` at the origin."""
+    made = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD)
+    made.scale.x, made.scale.y, made.scale.z = scale
+    made.color = ColorRGBA(r=float(color[0]), g=float(color[1]), b=float(color[2]), a=1.0)
+    made.pose.orientation.w = 1.0
+    return made
+
+
+def put(made, x, y, z):
+    """Move the marker `made`."""
+    place = made.pose.position
+    place.x, place.y, place.z = float(x), float(y), float(z)
+
+
+def points(corners):
+    """Point messages of triples."""
+    return [Point(x=float(x), y=float(y), z=float(z)) for x, y, z in corners]

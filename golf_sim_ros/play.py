@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The play in time: what arrives is applied between ticks, what happens is told."""
+from time import perf_counter
+
+from . import account, messages
+from .diagnosis import Diagnosis, SLOW
+from .orientation import turned, UPRIGHT
+from .pace import Pace
+from .physics import Phase, Rejected, Result
+
+MOVING = (Phase.FLIGHT, Phase.SLIDE, Phase.ROLL)
+CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
+REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
+SCENE_RATE = 10.0  # play markers a second: they are large, and eyes are slow
+
+
+class Play:
+    """A world that goes with the wall clock.
+
+    Parameters
+    ----------
+    world : World
+    broadcast : Broadcast
+        Where it is told.
+    refusals : Refusals
+        Where it is told what was not done.
+    log : rclpy.impl.rcutils_logger.RcutilsLogger
+        Where shots are told to people.
+    rate, publish_rate : float
+        Ticks, and steps, a second.
+    """
+
+    def __init__(self, world, broadcast, refusals, log, rate, publish_rate):
+        self.world, self.broadcast, self.refusals, self.log = world, broadcast, refusals, log
+        self.pace = Pace(1.0 / rate)
+        self.diagnosis = Diagnosis(rate / publish_rate)
+        self.steps_a_scene = max(1, round(publish_rate / SCENE_RATE))
+        self.steps = self.shots = 0  # shots: strikes received
+        self.playing = {}  # number of the strike that a ball plays
+        self.inputs = []
+        self.wind = self.blowing = (0.0, 0.0, 0.0)
+        self.paused = False
+        self.orientations = dict.fromkeys(world.names, UPRIGHT)
+        self.awake = set()  # balls whose pose was still changing when last told
+        self.course_due = self.all_due = True
+
+    @property
+    def asleep(self):
+        """Whether nothing changes until something arrives."""
+        return self.paused or not self.world.moving
+
+    def step(self):
+        """Let the time pass that has passed on the clock, apply what arrived, tell."""
+        self.advance()
+        if not self.paused:
+            self.apply()
+        self.tell()
+
+    def advance(self):
+        """Advance by as many whole ticks as are due."""
+        if self.paused:
+            self.pace.skip()
+            return
+        moving = self.world.moving
+        ticks = self.pace.due(CATCH_UP if moving else REST_CATCH_UP)
+        for _ in range(ticks):
+            self.tick()
+        if moving:
+            self.diagnosis.count(ticks)
+
+    def tick(self):
+        """Advance by one tick and tell what happened in it."""
+        began = perf_counter()
+        events = self.world.advance(self.pace.tick)
+        self.diagnosis.durations.append(perf_counter() - began)
+        for name in self.moving():
+            self.orientations[name] = turned(self.orientations[name], self.world[name].spin, self.pace.tick)
+        for event in events:
+            if isinstance(event, Result):
+                self.finish(event)
+            else:
+                self.broadcast.tell_collision(event)
+
+    def apply(self):
+        """Do what arrived, in order; the wind first, so that a shot starts in it."""
+        if self.wind != self.blowing:
+            self.world.set_wind(self.wind)
+            self.blowing = self.wind
+        inputs, self.inputs = self.inputs, []
+        for act in inputs:
+            act()
+
+    def strike(self, name, velocity, spin):
+        """Strike a ball; a bad shot has its result at once."""
+        self.shots += 1
+        try:
+            self.world.strike(name, velocity, spin)
+        except Rejected as error:
+            self.broadcast.results.publish(
+                messages.rejection_json(self.shots, name, velocity, spin, str(error)))
+            self.refusals.warn('shot', f'{name}: {error}')
+            return
+        self.playing[name] = self.shots
+        self.broadcast.scene.trails[name].clear()
+
+    def place(self, name, point):
+        """Put a resting ball on the ground at the x and y of `point`."""
+        try:
+            if name in self.moving():
+                raise ValueError('it is in motion')
+            self.world.place(name, point[:2])
+        except ValueError as error:
+            self.refusals.warn('place', f'{name}: {error}')
+            return
+        self.broadcast.scene.trails[name].clear()
+        self.all_due = True
+
+    def reset(self):
+        """All balls back to the start; shots under way end as aborted."""
+        for result in self.world.reset():
+            self.finish(result)
+        for name in self.world.names:
+            self.orientations[name] = UPRIGHT
+            self.broadcast.scene.trails[name].clear()
+        self.all_due = True
+
+    def finish(self, result):
+        """Tell the end of a shot."""
+        self.awake.add(result.ball)
+        self.broadcast.results.publish(messages.result_json(result, self.playing.pop(result.ball)))
+        self.log.info(account.line(result))
+
+    def moving(self):
+        """Names of the balls that move."""
+        return [name for name in self.world.names if self.world[name].phase in MOVING]
+
+    def tell(self):
+        """Balls that move or have just stopped; everything that somebody waits for."""
+        moving = set(self.moving())
+        for name in self.world.names if self.all_due else moving | self.awake:
+            self.broadcast.tell_ball(name, self.orientations[name])
+        for name in moving:
+            self.broadcast.scene.trails[name].add(self.world[name].position)
+        if self.scene_due(moving):
+            self.broadcast.tell_scene(self.blowing)
+        if self.course_due:
+            self.broadcast.tell_course()
+        self.all_due = self.course_due = False
+        self.awake = moving
+
+    def scene_due(self, moving):
+        """Whether the markers are due: seldom, but always where `moving` ends."""
+        self.steps += 1
+        return self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
+
+    def diagnose(self):
+        """Tell how well simulated time keeps up with the clock."""
+        self.diagnosis.mark(self.world.time)
+        slow = self.diagnosis.factor < SLOW and not self.paused
+        self.broadcast.tell_diagnosis(slow, self.diagnosis.values(self.world, self.pace.lost))

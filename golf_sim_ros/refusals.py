@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Warnings about inputs that were not followed."""
+from collections import Counter
+
+KINDS = ('shot', 'wind', 'place')
+
+
+class Refusals:
+    """Counts refused inputs of each of `KINDS` and warns of them, at most once a second each.
+
+    Parameters
+    ----------
+    log : rclpy.impl.rcutils_logger.RcutilsLogger
+    """
+
+    def __init__(self, log):
+        self.logs = {kind: log.get_child(kind) for kind in KINDS}
+        self.counts = Counter()
+
+    def warn(self, kind, reason):
+        """Note one more of `kind`."""
+        self.counts[kind] += 1
+        self.logs[kind].warning(
+            f'{kind} refused ({self.counts[kind]} so far): {reason}', throttle_duration_sec=1.0)

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node that plays: shots and wind come in, the play goes out."""
+from functools import partial
+import sys
+from time import perf_counter
+
+from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_srvs.srv import SetBool, Trigger
+
+from .broadcast import Broadcast
+from .course import load_course
+from .messages import triple
+from .parameters import checked, declared
+from .physics import World
+from .physics.world import checked_wind
+from .play import Play
+from .refusals import Refusals
+from .spinning import run
+
+COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
+# Asks for the least, so it matches every publisher; only the newest wind counts.
+NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+EXAMPLE = '{linear: {x: 65.0, z: 14.0}, angular: {y: -280.0}}'
+
+
+class SimNode(Node):
+    """The node `golf_sim`. Callbacks store what arrives; one timer lets time pass.
+
+    Parameters
+    ----------
+    context : rclpy.context.Context, optional
+    namespace : str, optional
+    parameter_overrides : list of rclpy.parameter.Parameter, optional
+
+    Raises
+    ------
+    ValueError
+        A parameter or the course cannot be used; the message is one line.
+    """
+
+    def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
+        super().__init__('golf_sim', context=context, namespace=namespace,
+                         parameter_overrides=parameter_overrides)
+        given = declared(self)
+        self.world = World(load_course(given.course), given.balls, given.effects, given.accuracy)
+        self.compile()
+        self.frame, self.refusals = given.frame_id, Refusals(self.get_logger())
+        broadcast = Broadcast(self, self.world, given.frame_id, self.on_viewer, self.on_follower)
+        self.play = Play(self.world, broadcast, self.refusals, self.get_logger(), given.rate,
+                         given.publish_rate)
+        self.subscribe()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
+        self.beat = self.create_timer(1.0, self.on_beat, clock=steady)
+        self.introduce()
+
+    def compile(self):
+        """Make the machine code before anybody can strike: a shot shall not wait for a compiler."""
+        if not self.world.compiled:
+            self.get_logger().info('waiting for the physics to be compiled for this machine: '
+                                   'once, up to a minute; later starts find it done')
+        began = perf_counter()
+        self.world.compile()
+        self.get_logger().info(f'physics ready after {perf_counter() - began:.1f} s')
+
+    def subscribe(self):
+        """Open the ways in: topics, services, live parameters."""
+        first = self.world.names[0]
+        self.strikes = self.create_subscription(Twist, 'shot', partial(self.on_shot, first), COMMANDS)
+        for name in self.world.names:
+            self.create_subscription(Twist, f'{name}/shot', partial(self.on_shot, name), COMMANDS)
+            self.create_subscription(PointStamped, f'{name}/place', partial(self.on_place, name), COMMANDS)
+        self.create_subscription(Vector3Stamped, 'wind', self.on_wind, NEWEST)
+        self.create_service(Trigger, '~/reset', self.on_reset)
+        self.create_service(SetBool, '~/pause', self.on_pause)
+        self.add_on_set_parameters_callback(checked)
+        self.add_post_set_parameters_callback(self.on_parameters)
+
+    def introduce(self):
+        """Tell in the log what is played, what is simulated, and how to strike."""
+        log, world = self.get_logger(), self.world
+        log.info(f'course: {world.course.name} ({world.course.path})')
+        log.info(f'simulated: {", ".join(world.effects_on)}; accuracy {world.accuracy}')
+        for name, reason in world.effects_off.items():
+            log.info(f'not simulated: {name}: {reason}')
+        log.info('ready; to strike the ball, paste: ros2 topic pub --once '
+                 f"{self.strikes.topic_name} geometry_msgs/msg/Twist '{EXAMPLE}'")
+
+    def on_shot(self, name, message):
+        """Keep a strike for the next step."""
+        self.store(partial(self.play.strike, name, triple(message.linear), triple(message.angular)))
+
+    def on_place(self, name, message):
+        """Keep a place for the next step."""
+        if self.in_frame('place', message):
+            self.store(partial(self.play.place, name, triple(message.point)))
+
+    def on_wind(self, message):
+        """Keep the wind; it is felt from the next step on."""
+        if not self.in_frame('wind', message):
+            return
+        try:
+            self.play.wind = checked_wind(triple(message.vector))
+        except ValueError as error:
+            self.refusals.warn('wind', str(error))
+            return
+        self.play.diagnosis.note_wind()
+
+    def in_frame(self, kind, message):
+        """Whether `message` is in the course's frame or says nothing about it; if not, it is refused."""
+        frame = message.header.frame_id
+        if frame in ('', self.frame):
+            return True
+        self.refusals.warn(kind, f'frame {frame!r} is not {self.frame!r}')
+        return False
+
+    def on_viewer(self):
+        """Somebody looks at the course: tell it once more."""
+        self.play.course_due = True
+        self.wake()
+
+    def on_follower(self):
+        """Somebody follows a ball: tell where it is."""
+        self.play.all_due = True
+        self.wake()
+
+    def on_reset(self, request, response):
+        """Put all balls back, after what arrived before."""
+        self.play.inputs.append(self.play.reset)
+        self.play.apply()
+        self.wake()
+        response.success, response.message = True, 'every ball is back at the start'
+        return response
+
+    def on_pause(self, request, response):
+        """Let time stand still from now on, or go on."""
+        self.play.advance()
+        self.play.paused = request.data
+        self.wake()
+        response.success, response.message = True, 'paused' if request.data else 'playing'
+        return response
+
+    def on_parameters(self, parameters):
+        """Follow the parameters that may change."""
+        for parameter in parameters:
+            if parameter.name == 'accuracy':
+                self.world.accuracy = parameter.value
+
+    def store(self, act):
+        """Keep `act`, to be done by the next step."""
+        self.play.inputs.append(act)
+        self.wake()
+
+    def wake(self):
+        """Let the timer run. One that runs is left alone, or a flood of messages would hold it up."""
+        if self.timer.is_canceled():
+            self.timer.reset()
+
+    def on_timer(self):
+        """One step; at rest the timer sleeps, so that a ball at rest costs next to nothing."""
+        self.play.step()
+        if self.play.asleep:
+            self.timer.cancel()
+
+    def on_beat(self):
+        """Once a second, moving or not: everything, and how the simulation does."""
+        self.play.all_due = True
+        self.play.step()
+        self.play.diagnose()
+
+
+def main(args=None):
+    """Play until told to stop; returns the exit code."""
+    return run(SimNode, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())
