@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A drive, an approach and a putt over ROS 2, each hit with `shoot`: what ``make play`` does."""
+
+import json
+from math import sqrt
+import os
+import subprocess
+import sys
+
+import rclpy
+from rclpy.signals import SignalHandlerOptions
+
+from golf_sim_ros.environment import complete_environment
+from golf_sim_ros.materials import materials, shipped
+from golf_sim_ros.tools.clubs import CLUBS
+from running import BIN, Failed, nodes, Spectator
+
+GRAVITY = 9.80665       # m/s2
+BEYOND = 0.3            # m: a putt that dies at the hole falls short of it half of the time
+
+
+def main():
+    """Play; the exit code is 0 when all three shots came to an end."""
+    complete_environment()
+    keep_to_ourselves()
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        with nodes() as processes:
+            spectator = Spectator(processes)
+            spectator.wait_for_ball()
+            summarize(play(spectator))
+    except Failed as failure:
+        print(f'play: {failure}', file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    finally:
+        rclpy.try_shutdown()
+    return 0
+
+
+def keep_to_ourselves():
+    """Meet no other game: this machine only and, where the user has chosen none, a domain of our own."""
+    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 100))
+    print(f'Playing on ROS_DOMAIN_ID={os.environ["ROS_DOMAIN_ID"]}', flush=True)
+
+
+def play(spectator):
+    """Results of the shots."""
+    results = []
+    for choose in (drive, approach, putt):
+        title, arguments = choose(results[-1] if results else None)
+        hit(title, arguments)
+        results.append(spectator.result(len(results) + 1))
+        if results[-1]['status'] == 'holed':
+            break
+    return results
+
+
+def drive(_):
+    """Name and arguments of the first shot."""
+    return 'drive', ['driver']
+
+
+def approach(last):
+    """Name and arguments of a shot that carries to the hole: a whole one, or part of a wedge."""
+    distance = last['to_hole']
+    reach = {name: club.carry for name, club in CLUBS.items() if club.carry}
+    name = min(reach, key=lambda club: abs(reach[club] - distance))
+    # Carry grows a little faster than the speed, for slow shots with its square: about to the power 1.5.
+    power = min(1.0, (distance / reach[name]) ** (1 / 1.5))
+    return f'approach with the {name}', [name, '--power', f'{power:.3f}']
+
+
+def putt(last):
+    """Name and arguments of a shot along the ground that rolls to the hole, on ground like that under the ball.
+
+    A ball struck at v without spin slides for 12 v^2 / (49 mu g) until it rolls at 5/7 v, and rolls on
+    for (5/7 v)^2 / (2 rho g).
+    """
+    ground = materials({}, shipped()[0])[last['lie']]
+    way = 12 / 49 / ground.dynamic_friction + 25 / 98 / ground.rolling_resistance
+    speed = sqrt((last['to_hole'] + BEYOND) * GRAVITY / way)
+    return 'putt', ['putter', '--units', 'si', '--speed', f'{speed:.3f}']
+
+
+def hit(title, arguments):
+    """Hit one shot at the hole."""
+    command = ['shoot', *arguments, '--aim', 'hole']
+    print(f'\n{title.capitalize()}: {" ".join(command)}', flush=True)
+    code = subprocess.call([BIN / command[0], *command[1:]])
+    if code != 0:
+        raise Failed(f'the {title} was not played, exit code {code}')
+
+
+def summarize(results):
+    """Print what became of the shots."""
+    print('\nPlayed:')
+    for result in results:
+        keys = ('shot', 'status', 'carry', 'total', 'side', 'to_hole', 'lie')
+        print('  ' + json.dumps({key: result[key] for key in keys}))
+
+
+if __name__ == '__main__':
+    sys.exit(main())
