@@ -74,7 +74,7 @@ def approach(last):
 
 
 def putt(last):
-    """Name and arguments of a shot along the ground that rolls to the hole, on ground like that under the ball.
+    """Name and arguments of a shot along the ground that rolls to the hole, on ground like that it lies on.
 
     A ball struck at v without spin slides for 12 v^2 / (49 mu g) until it rolls at 5/7 v, and rolls on
     for (5/7 v)^2 / (2 rho g).
