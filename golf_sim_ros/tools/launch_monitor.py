@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+r"""
+From what a launch monitor shows to velocity and spin.
+
+Seen from above, the target ahead:     Seen from behind, along the flight:
+
+            x  target                              z
+            |   /  flight                          |
+            |  /                              \    |
+            |-/  azimuth,                       \  |
+            |/   positive to the right    y -------o-------
+     y -----+                                      | \
+                                                   |   \  spin axis, tilted to the right:
+                                                          positive, curves to the right
+
+The Magnus force points along spin x velocity. So backspin, which lifts, turns about the axis to the
+right of the flight (-y for a shot along +x), and sidespin that curves to the right turns clockwise
+seen from above.
+"""
+from math import cos, sin
+from typing import NamedTuple
+
+
+class Launch(NamedTuple):
+    """
+    What a launch monitor shows.
+
+    Parameters
+    ----------
+    speed : float
+        Speed of the ball [m/s].
+    launch : float
+        Angle of the velocity above the horizontal [rad].
+    azimuth : float
+        Angle of the velocity from the target line, positive to the right [rad].
+    backspin : float
+        Spin that lifts the ball [rad/s].
+    sidespin : float
+        Spin that curves the ball, positive to the right [rad/s].
+    """
+
+    speed: float
+    launch: float = 0.0
+    azimuth: float = 0.0
+    backspin: float = 0.0
+    sidespin: float = 0.0
+
+
+def parted(spin, axis):
+    """Return backspin and sidespin of a `spin` whose `axis` [rad] is tilted, positive to the right."""
+    return spin * cos(axis), spin * sin(axis)
+
+
+def velocity_and_spin(launch, heading=0.0):
+    """
+    Return velocity and angular velocity of a launched ball in the frame of the course.
+
+    Parameters
+    ----------
+    launch : Launch
+    heading : float
+        Direction of the target: angle from x towards y, that is to the left [rad].
+
+    Returns
+    -------
+    velocity : tuple of 3 float
+        [m/s]; x to the target of the course, y to the left, z up.
+    spin : tuple of 3 float
+        [rad/s]; perpendicular to the velocity, for launch monitors show no other.
+    """
+    up, along = sin(launch.launch), cos(launch.launch)
+    ahead_x, ahead_y = cos(heading - launch.azimuth), sin(heading - launch.azimuth)
+    velocity = (launch.speed * along * ahead_x, launch.speed * along * ahead_y, launch.speed * up)
+    right = (ahead_y, -ahead_x, 0.0)
+    above = (-up * ahead_x, -up * ahead_y, along)   # right x velocity, of unit length
+    spin = tuple(launch.backspin * r - launch.sidespin * a for r, a in zip(right, above))
+    return _without_negative_zeros(velocity), _without_negative_zeros(spin)
+
+
+def _without_negative_zeros(vector):
+    return tuple(number + 0.0 for number in vector)

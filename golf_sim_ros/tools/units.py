@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Units in which people type shots and read results."""
+from math import pi
+from typing import NamedTuple
+
+
+class Unit(NamedTuple):
+    """
+    A unit by name.
+
+    Parameters
+    ----------
+    name : str
+    size : float
+        One of it in SI.
+    """
+
+    name: str
+    size: float
+
+
+class Units(NamedTuple):
+    """The units of speeds, angles, spins and lengths."""
+
+    speed: Unit
+    angle: Unit
+    spin: Unit
+    length: Unit
+
+
+DEGREE = Unit('deg', pi / 180.0)
+
+# The international yard is 0.9144 m and the mile 1760 yards, both exactly.
+UNITS = {
+    'golf': Units(Unit('mph', 0.44704), DEGREE, Unit('rpm', 2.0 * pi / 60.0), Unit('yd', 0.9144)),
+    'si': Units(Unit('m/s', 1.0), DEGREE, Unit('rad/s', 1.0), Unit('m', 1.0)),
+}
