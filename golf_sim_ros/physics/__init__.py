@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The physics of golf: no ROS, no files, no clock, no plots."""
+from .accuracy import ACCURACY, Preset
+from .air import Air, standard_atmosphere
+from .course import Ball, Course
+from .effects import EFFECTS, register_effect
+from .effects.wind import LogProfile, PowerProfile, UniformProfile
+from .ground.patch import Patch
+from .ground.plane import Plane
+from .integrators import METHODS
+from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
+from .report import Collision, Result
+from .state import Phase, Shot
+from .world import BallState, Rejected, World
+
+__all__ = [
+    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'EFFECTS', 'LogProfile',
+    'METHODS', 'Material', 'PENNER', 'Patch', 'Phase', 'Plane', 'PowerProfile', 'Preset', 'Rejected',
+    'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'register_effect',
+    'rolling_resistance_of_stimp', 'standard_atmosphere']

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compilation: the only file that knows numba.
+
+``@kernel`` compiles a function, or leaves it plain Python where numba is missing. ``@generic``
+makes a function that picks its body by the type of its first argument, inside kernels too, where
+choosing costs nothing. Compiled code is kept on disk, in a folder keyed by all sources of the
+physics: numba itself only watches the file of the cached function.
+"""
+import hashlib
+import inspect
+import os
+import tempfile
+import warnings
+from pathlib import Path
+
+try:
+    import numba
+    from numba import literal_unroll
+    from numba.extending import overload
+except ImportError:
+    numba = None
+    warnings.warn('numba is not installed: the physics runs in plain Python, some 100 times slower',
+                  RuntimeWarning, stacklevel=2)
+
+    def literal_unroll(records):
+        """Return `records`: plain Python loops over any tuple."""
+        return records
+
+
+def _source_key():
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.rglob('*.py')):
+        digest.update(source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _cache_folder():
+    """Folder for compiled code: the user's cache, or a temporary one where that is read-only."""
+    home = os.environ.get('XDG_CACHE_HOME') or os.path.join(os.path.expanduser('~'), '.cache')
+    for root in (home, tempfile.gettempdir()):
+        folder = Path(root) / 'golf_sim_ros' / _source_key()
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError:
+            continue
+        if os.access(folder, os.W_OK):
+            return str(folder)
+    return ''
+
+
+if numba and not os.environ.get('NUMBA_CACHE_DIR'):
+    numba.config.CACHE_DIR = _cache_folder()
+
+
+def kernel(function):
+    """`function` compiled for every combination of argument types it meets."""
+    if numba is None:
+        return function
+    return numba.njit(cache=True, error_model='numpy', nogil=True)(function)
+
+
+def generic(default):
+    """`default` as a function that has another body for every registered record type.
+
+    ``@name.register(Record)`` adds a body. Like functools.singledispatch, but kernels can call it
+    and the choice is made when they compile.
+    """
+    cases = {}
+
+    def call(*args):
+        return cases.get(type(args[0]), default)(*args)
+
+    def pick(record, *_):
+        return cases.get(getattr(record, 'instance_class', None), default)
+
+    def register(record):
+        if record in cases:
+            raise TypeError(f'{record.__name__} already has a {default.__name__}')
+        return lambda function: add_case(record, function)
+
+    def add_case(record, function):
+        if names != parameters(function):
+            raise TypeError(f'{default.__name__} of {record.__name__} must have the parameters {names}')
+        return cases.setdefault(record, function)
+
+    def parameters(function):
+        return ', '.join(inspect.signature(function).parameters)
+
+    # numba matches an overload by its parameter names, so borrow those of `default`.
+    names = parameters(default)
+
+    if numba is not None:
+        scope = {'pick': pick, '__name__': default.__module__}
+        exec(f'def choose({names}): return pick({names})', scope)
+        overload(call)(scope['choose'])
+    call.register, call.cases = register, cases
+    call.__doc__, call.__name__ = default.__doc__, default.__name__
+    return call

@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sliding, rolling, pivoting, resting: motion of a ball that keeps touching the ground.
+
+On flat ground everything is in closed form (see braked.py). With k the moment of inertia over
+m r^2, slip u obeys u' = g_t - (1 + 1/k) mu N u/|u|, rolling v' = g_t/(1 + k) - a v/|v|, and a ball
+slides as v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
+"""
+from math import inf
+
+from ._compile import kernel
+from . import braked
+from .effects import pull
+from .ground import surface
+from .impulse import slip
+from .path import lay, position
+from .state import BALL_STOPS, FLIGHT, REST, ROLL, SLIDE, SLIP_STOPS, STEP
+from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
+
+STILL = 1e-9  # m/s: slower than this is not moving
+LONGEST = 10.0  # s of one piece
+
+
+@kernel
+def material_under(model, ball):
+    """Row of the material that the ball touches."""
+    return model.materials[surface.material_of(model.ground, ball['support'])]
+
+
+@kernel
+def in_tail(ball, now):
+    """Whether the ball's last, tiny bounces are still going on."""
+    return ball['tail_end'] > now
+
+
+@kernel
+def brake(material, press):
+    """Deceleration of a rolling ball: no more than the contact's grip can give."""
+    return min(material['rolling_resistance'], material['static_friction']) * press
+
+
+@kernel
+def settle(model, ball, now):
+    """Decide whether a ball in contact slides, rolls, pivots or rests. Writes phase and motion.
+
+    A ball that rolls goes on rolling while its contact grips; any other must lose its slip first.
+    """
+    normal = vector(ball['normal'])
+    material = material_under(model, ball)
+    press, downhill = surface.slope(pull(model.effects, vector(ball['position'])), normal)
+    v = along(vector(ball['velocity']), -dot(vector(ball['velocity']), normal), normal)
+    k = model.ball.inertia
+    turning = dot(vector(ball['spin']), normal)
+    grips = k / (1.0 + k) * length(downhill) <= material['static_friction'] * press
+    put(ball['velocity'], v)
+    sliding = slip(v, vector(ball['spin']), normal, model.ball.radius)
+    if not grips or ball['phase'] != ROLL and length(sliding) > STILL:
+        ball['phase'] = SLIDE
+        return
+    ball['phase'] = ROLL
+    holds = (length(downhill) / (1.0 + k) <= brake(material, press)
+             and length(downhill) <= material['static_friction'] * press)
+    if length(v) <= STILL and holds and not in_tail(ball, now):
+        v = ZERO
+        put(ball['velocity'], v)
+        if material['pivot_friction'] == 0.0 or abs(turning) * model.ball.radius <= STILL:
+            ball['phase'] = REST
+    put(ball['spin'], along(scale(1.0 / model.ball.radius, cross(normal, v)), turning, normal))
+
+
+@kernel
+def flat_piece(model, ball, now):
+    """Lay the next piece of sliding or rolling on a plane, up to a stop or as far as it is exact."""
+    normal = vector(ball['normal'])
+    material = material_under(model, ball)
+    press, downhill = surface.slope(pull(model.effects, vector(ball['position'])), normal)
+    tail = in_tail(ball, now)
+    load = press * ball['tail_press'] if tail else press
+    k = model.ball.inertia
+    v = vector(ball['velocity'])
+    drift = scale(1.0 / (1.0 + k), downhill)
+    if ball['phase'] == SLIDE:
+        u = slip(v, vector(ball['spin']), normal, model.ball.radius)
+        motion = braked.braked(u, downhill, (1.0 + 1.0 / k) * material['dynamic_friction'] * load, normal)
+        coast = (along(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
+    else:
+        motion = braked.braked(v, drift, 0.0 if tail else brake(material, press), normal)
+        coast = (ZERO, ZERO, 1.0)
+    unwinding = material['pivot_friction'] * load / (k * model.ball.radius * model.ball.radius)
+    turning = dot(vector(ball['spin']), normal)
+    horizon = LONGEST
+    if unwinding > 0.0 and turning != 0.0:
+        horizon = min(horizon, abs(turning) / unwinding)
+    if tail:
+        horizon = min(horizon, ball['tail_end'] - now)
+    end = reach(motion, horizon)
+    while True:
+        lay_glide(model, ball, motion, coast, end, turning, unwinding)
+        middle = braked.half_way(motion, end)
+        if off_path(ball, motion, coast, middle) <= model.limits.path:
+            break
+        end = middle
+    ball['ending'] = STEP
+    if end == inf:
+        ball['ending'] = SLIP_STOPS if ball['phase'] == SLIDE else BALL_STOPS
+
+
+@kernel
+def reach(motion, horizon):
+    """Parameter at the stop, if it comes within `horizon`, else at `horizon`."""
+    if braked.stops(motion) and braked.after(motion, inf)[0] <= horizon:
+        return inf
+    return braked.parameter_at(motion, horizon)
+
+
+@kernel
+def glided(motion, coast, q):
+    """Time, way, velocity and slip (or rolling velocity) at the parameter `q`."""
+    time, u, way = braked.after(motion, q)
+    start, drift, share = coast
+    velocity = along(along(start, time, drift), share, u)
+    travelled = along(along(scale(time, start), 0.5 * time * time, drift), share, way)
+    return time, travelled, velocity, u
+
+
+@kernel
+def off_path(ball, motion, coast, q):
+    """Distance of the piece's curve from the closed form at the parameter `q`."""
+    time, way, _, _ = glided(motion, coast, q)
+    return length(sub(sub(position(ball, time), vector(ball['origin'])), way))
+
+
+@kernel
+def lay_glide(model, ball, motion, coast, q, turning, unwinding):
+    """Lay the piece of a glide that ends at the parameter `q`. Writes the ball's curve."""
+    normal = vector(ball['normal'])
+    r = model.ball.radius
+    time, way, v1, u1 = glided(motion, coast, q)
+    u0 = braked.after(motion, 0.0)[1]
+    v0 = vector(ball['velocity'])
+    du0 = braked.rate(motion, u0)
+    du1 = braked.rate(motion, u1)
+    _, drift, share = coast
+    a0 = along(drift, share, du0)
+    a1 = along(drift, share, du1)
+    # Where it slides, the spin follows velocity minus slip; where it rolls there is no slip.
+    keep = 1.0 if ball['phase'] == SLIDE else 0.0
+    left = max(abs(turning) - unwinding * time, 0.0)
+    if abs(turning) - unwinding * time <= 1e-12 * abs(turning):
+        left = 0.0
+    sign = 1.0 if turning > 0.0 else -1.0
+    winding = scale(-sign * unwinding if turning != 0.0 else 0.0, normal)
+    ball['span'] = time
+    put(ball['origin'], vector(ball['position']))
+    put(ball['twist'][3], along(scale(1.0 / r, cross(normal, along(v1, -keep, u1))), sign * left, normal))
+    lay(ball, way, (v0, v1), (a0, a1),
+        (add(scale(1.0 / r, cross(normal, along(a0, -keep, du0))), winding),
+         add(scale(1.0 / r, cross(normal, along(a1, -keep, du1))), winding)))
+
+
+@kernel
+def bent_rates(model, ball, place, velocity, spin):
+    """Acceleration, rate of spin and press of a ball that follows ground which is not flat.
+
+    With n' the rate of the normal: staying on the surface demands v' n = -v n', so the ground
+    presses with -(g n + v n') per mass. Grip also turns spin about the normal, w_n, into motion:
+    (1 + k) v'_t = g_t + k r w_n (n x n').
+    """
+    r = model.ball.radius
+    k = model.ball.inertia
+    _, normal = surface.nearest(model.ground, ball['support'], place)
+    turn = normal_rate(model, ball, place, velocity)
+    press, downhill = surface.slope(pull(model.effects, place), normal)
+    material = material_under(model, ball)
+    press -= dot(velocity, turn)
+    about = dot(spin, normal)
+    free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
+    if length(velocity) > STILL:
+        free = along(free, -brake(material, press) / length(velocity), velocity)
+    friction = sub(free, downhill)
+    sliding = slip(velocity, spin, normal, r)
+    if length(sliding) > 1e-6:
+        friction = scale(-material['dynamic_friction'] * press / length(sliding), sliding)
+    elif length(friction) > material['static_friction'] * press:
+        friction = scale(material['dynamic_friction'] * press / length(friction), friction)
+    force = along(add(downhill, friction), -dot(velocity, turn), normal)
+    return force, scale(-1.0 / (k * r), cross(normal, friction)), press
+
+
+@kernel
+def normal_rate(model, ball, place, velocity):
+    """Rate of change of the normal under a ball that moves at `velocity`."""
+    speed = length(velocity)
+    if speed == 0.0:
+        return ZERO
+    dt = 1e-4 * model.ball.radius / speed
+    _, before = surface.nearest(model.ground, ball['support'], along(place, -dt, velocity))
+    _, behind = surface.nearest(model.ground, ball['support'], along(place, dt, velocity))
+    return scale(0.5 / dt, sub(behind, before))
+
+
+@kernel
+def bent_piece(model, ball):
+    """Lay a short piece around an edge by the midpoint rule; lift off where the press is gone."""
+    x0 = vector(ball['position'])
+    v0 = vector(ball['velocity'])
+    w0 = vector(ball['spin'])
+    a0, dw0, press = bent_rates(model, ball, x0, v0, w0)
+    if press <= 0.0:
+        ball['phase'] = FLIGHT
+        ball['step'] = 0.0
+        return
+    h = min(1e-3, 0.02 * model.ball.radius / max(length(v0), 1e-3))
+    am, dwm, _ = bent_rates(model, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0), along(w0, 0.5 * h, dw0))
+    x1 = along(x0, h, along(v0, 0.5 * h, a0))
+    distance, n1 = surface.nearest(model.ground, ball['support'], x1)
+    x1 = along(x1, model.ball.radius - distance, n1)
+    v1 = along(v0, h, am)
+    v1 = along(v1, -dot(v1, n1), n1)
+    w1 = along(w0, h, dwm)
+    a1, dw1, _ = bent_rates(model, ball, x1, v1, w1)
+    ball['span'] = h
+    put(ball['origin'], x0)
+    put(ball['twist'][3], w1)
+    lay(ball, sub(x1, x0), (v0, v1), (a0, a1), (dw0, dw1))
+    ball['ending'] = STEP

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is played on, as plain records: no files, no formats."""
+from typing import NamedTuple, Optional, Union
+
+from .air import Air
+from .effects.wind import LogProfile
+
+
+class Ball(NamedTuple):
+    """The ball: R&A and USGA Equipment Rules part 4 give mass and radius.
+
+    ``inertia`` is the moment of inertia over m r^2; ``restitution`` and ``friction`` are those of
+    ball against ball.
+    """
+
+    mass: float = 0.04593
+    radius: float = 0.021335
+    inertia: float = 0.4
+    restitution: float = 0.85
+    friction: float = 0.2
+
+
+class Course(NamedTuple):
+    """A course, ready to be played.
+
+    Parameters
+    ----------
+    ground : tuple
+        Shapes, lowest priority first: at equal height the later one counts.
+    tee : (float, float)
+        x, y of the first ball [m].
+    hole : (float, float) or None
+    flagstick : bool
+    bounds : tuple of (float, float), or None
+        Corners of the polygon that a ball on the ground may not leave.
+    air : Air
+    wind_profile : LogProfile, PowerProfile or UniformProfile
+    effects : 'auto' or tuple of str
+    ball : Ball
+    name, path, digest : str
+        What a person calls it; where it was read; a hash of all that was read.
+    """
+
+    ground: tuple
+    tee: tuple = (0.0, 0.0)
+    hole: Optional[tuple] = None
+    flagstick: bool = True
+    bounds: Optional[tuple] = None
+    air: Air = Air()
+    wind_profile: NamedTuple = LogProfile()
+    effects: Union[str, tuple] = 'auto'
+    ball: Ball = Ball()
+    name: str = ''
+    path: str = ''
+    digest: str = ''

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""When a piece of path first touches something: advance that never steps over a contact.
+
+A part of the ground is convex, so the gap to it is a convex function of position. Along a path of
+acceleration at most A it therefore stays above the parabola
+
+    gap(t + s) >= gap(t) + gap'(t) s - A s^2 / 2
+
+and it is safe to advance to that parabola's root. It is Newton's method from the safe side:
+it converges as fast, and can't tunnel.
+"""
+from math import sqrt
+
+from ._compile import kernel
+from .ground import surface
+from .path import (corner, greatest_acceleration, least_acceleration, position, span_along, velocity)
+from .vector import add, along, dot, length, vector
+
+TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
+NEVER = 1e300
+MOST_STEPS = 200
+IN_THE_AIR, ON_FLAT, ON_EDGE = range(3)
+
+
+@kernel
+def safe_advance(gap, rate, bend):
+    """Time in which a gap of that `rate` can't close if its rate falls by at most `bend`."""
+    gap = max(gap, 0.0)
+    if bend <= 0.0:
+        return gap / -rate if rate < 0.0 else NEVER
+    root = sqrt(rate * rate + 2.0 * bend * gap)
+    if rate < 0.0:
+        return 2.0 * gap / (root - rate)
+    return (rate + root) / bend
+
+
+@kernel
+def closing_bend(ground, part, ball, normal, bend):
+    """Bound on how fast the rate of the gap to `part` can fall along the piece.
+
+    Where the whole piece sees one and the same `normal`, only acceleration along it counts: a ball
+    can fall along a wall without ever nearing it.
+    """
+    for i in range(6):
+        _, seen = surface.nearest(ground, part, corner(ball, i))
+        if dot(seen, normal) < 1.0 - 1e-15:
+            return bend
+    return max(0.0, -least_acceleration(ball, normal))
+
+
+@kernel
+def leave(ground, part, ball, radius, until):
+    """Time at which a ball that touches `part` is clear of it, or 0 if it presses on."""
+    time = 1e-9
+    while time < until and time < 1e-2:
+        place = position(ball, time)
+        distance, normal = surface.nearest(ground, part, place)
+        if distance - radius < -TOUCH:
+            return 0.0
+        if distance - radius > 10 * TOUCH and dot(normal, velocity(ball, time)) > 0.0:
+            return time
+        time *= 4.0
+    return min(time, until)
+
+
+@kernel
+def first_touch(ground, part, ball, radius, until):
+    """Time, at most `until`, up to which the piece is safe from `part`; whether it touches then."""
+    bend = greatest_acceleration(ball)
+    time = 0.0
+    for step in range(MOST_STEPS):
+        place = position(ball, time)
+        distance, normal = surface.nearest(ground, part, place)
+        gap = distance - radius
+        rate = dot(normal, velocity(ball, time))
+        if gap <= TOUCH:
+            if not surface.touchable(ground, part, place):
+                # In a cut, or behind a one-sided sheet: move on until clear of its plane.
+                time += max(-gap, 1e-6) / (length(velocity(ball, time)) + bend * until + 1e-3)
+                if time >= until:
+                    return until, False
+                continue
+            if rate < -1e-9 or time > 0.0 and rate <= 0.0:
+                return time, True
+            free = leave(ground, part, ball, radius, until) if time == 0.0 else time
+            if free == 0.0:
+                return 0.0, True
+            if time == 0.0:
+                time = free
+                if time >= until:
+                    return until, False
+                continue
+        if step == 4:
+            bend = closing_bend(ground, part, ball, normal, bend)
+        time += safe_advance(gap, rate, bend)
+        if time >= until:
+            return until, False
+    return time, False
+
+
+@kernel
+def first_contact(ground, ball, radius, until, on):
+    """First time at which the piece touches any part, which one, and whether it really does.
+
+    `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
+    under it, where surfaces in that plane, and edges met tangentially, are seams and no obstacles;
+    ON_EDGE the part that supports it.
+    """
+    best = until
+    who = -1
+    hit = False
+    x = span_along(ball, 0)
+    y = span_along(ball, 1)
+    z = span_along(ball, 2)
+    low = (x[0] - radius, y[0] - radius, z[0] - radius)
+    high = (x[1] + radius, y[1] + radius, z[1] + radius)
+    foot = along(vector(ball['position']), -radius, vector(ball['normal']))
+    for part in range(surface.parts(ground)):
+        if surface.out_of_reach(ground, part, low, high):
+            continue
+        if on == ON_FLAT and surface.in_plane(ground, part, foot, vector(ball['normal'])):
+            continue
+        if on == ON_EDGE and part == ball['support']:
+            continue
+        time, touches = first_touch(ground, part, ball, radius, best)
+        if touches and on == ON_FLAT:
+            _, normal = surface.nearest(ground, part, position(ball, time))
+            if dot(normal, vector(ball['normal'])) > 1.0 - 1e-9:
+                continue
+        if time < best or touches and not hit:
+            best = time
+            who = part
+            hit = touches
+    return best, who, hit
+
+
+@kernel
+def first_border(ground, ball, radius, until):
+    """First time, at most `until`, at which the piece crosses a border in plan, and whether so.
+
+    It is the ball's foot that crosses; at the course's bounds, its centre.
+    """
+    best = until
+    crosses = False
+    bend = greatest_acceleration(ball)
+    x = span_along(ball, 0)
+    y = span_along(ball, 1)
+    for i in range(len(ground.borders)):
+        border = ground.borders[i]
+        end_x = border['start'][0] + border['length'] * border['direction'][0]
+        end_y = border['start'][1] + border['length'] * border['direction'][1]
+        shift = 0.0 if border['bounds'] else -radius
+        dx = shift * ball['normal'][0]
+        dy = shift * ball['normal'][1]
+        if (x[1] + dx < min(border['start'][0], end_x) or x[0] + dx > max(border['start'][0], end_x)
+                or y[1] + dy < min(border['start'][1], end_y)
+                or y[0] + dy > max(border['start'][1], end_y)):
+            continue
+        time = crossing(border, ball, (dx, dy, 0.0), bend, best)
+        if time < best:
+            best = time
+            crosses = True
+    return best, crosses
+
+
+@kernel
+def crossing(border, ball, shift, bend, until):
+    """First time before `until` at which the piece, moved by `shift`, meets `border`, or `until`.
+
+    A piece that starts on the border has crossed it already.
+    """
+    time = 0.0
+    start = add(position(ball, 0.0), shift)
+    gap, direction = surface.distance_in_plan(border, start[0], start[1])
+    if gap <= 2 * TOUCH:
+        speed = length(velocity(ball, 0.0))
+        time = 1e-8 / (speed + 1e-8)
+        if time >= until:
+            return until
+    for _ in range(MOST_STEPS):
+        place = add(position(ball, time), shift)
+        gap, direction = surface.distance_in_plan(border, place[0], place[1])
+        rate = dot(direction, velocity(ball, time))
+        if gap <= TOUCH:
+            return time if rate < 0.0 and time > 0.0 else until
+        time += safe_advance(gap, rate, bend)
+        if time >= until:
+            return until
+    return until

@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Effects: one file each, found by themselves; a scene gets those it calls for.
+
+A file of this folder that defines ``record(scene)`` and ``idle(scene)`` is an effect, named after
+the file. ``record`` gives the effect's record for a scene; ``idle`` says why the scene can do
+without it, or '' if it can't. Other packages add theirs with :func:`register_effect`.
+"""
+import importlib
+import inspect
+import pkgutil
+from typing import Callable, NamedTuple
+
+from .._compile import kernel, literal_unroll
+from ..vector import ZERO, add, length, sub
+from . import laws
+
+
+class Scene(NamedTuple):
+    """What effects are chosen for: a course, how many balls, and the wind at 10 m [m/s]."""
+
+    course: NamedTuple
+    balls: int = 1
+    wind: tuple = ZERO
+
+
+class Effect(NamedTuple):
+    """A known effect: how to build its record, and when a scene can do without."""
+
+    record: Callable
+    idle: Callable
+    doc: str
+
+
+EFFECTS = {}
+
+
+def register_effect(name, record, idle, doc):
+    """Make an effect known under `name`; see the module's docstring for `record` and `idle`."""
+    if name in EFFECTS:
+        raise ValueError(f'effect {name!r} is already registered')
+    EFFECTS[name] = Effect(record, idle, doc)
+
+
+def choose(names, scene):
+    """Records of the effects that `scene` gets, and why it does without the others.
+
+    Parameters
+    ----------
+    names : 'auto' or sequence of str
+        The effects asked for.
+    scene : Scene
+
+    Returns
+    -------
+    on : dict of str to record
+    off : dict of str to str
+        Reason of each effect that is left out.
+
+    Raises
+    ------
+    ValueError
+        Naming the unknown effect and the known ones.
+    """
+    auto = names == 'auto' or tuple(names) == ('auto',)
+    for name in () if auto else names:
+        if name not in EFFECTS:
+            raise ValueError(f'effect {name!r} is unknown; known: auto, {", ".join(sorted(EFFECTS))}')
+    on, off = {}, {}
+    for name, effect in EFFECTS.items():
+        reason = effect.idle(scene) if auto else '' if name in names else 'not asked for'
+        if reason:
+            off[name] = reason
+        else:
+            on[name] = effect.record(scene)
+    return on, off
+
+
+@kernel
+def wind_at(effects, ground, position):
+    """Velocity of the air at `position`."""
+    wind = ZERO
+    for effect in literal_unroll(effects):
+        wind = add(wind, laws.air_velocity(effect, ground, position))
+    return wind
+
+
+@kernel
+def pull(effects, position):
+    """Acceleration that acts on every ball at `position`."""
+    total = ZERO
+    for effect in literal_unroll(effects):
+        total = add(total, laws.gravity(effect, position))
+    return total
+
+
+@kernel
+def flight_rates(effects, ground, position, velocity, spin):
+    """Acceleration and rate of change of spin of a flying ball."""
+    through_air = sub(velocity, wind_at(effects, ground, position))
+    flow = laws.Flow(through_air, length(through_air), spin, velocity)
+    force = ZERO
+    torque = ZERO
+    for effect in literal_unroll(effects):
+        force = add(force, add(laws.gravity(effect, position), laws.acceleration(effect, flow)))
+        torque = add(torque, laws.spin_rate(effect, flow))
+    return force, torque
+
+
+@kernel
+def felt_normal(effects, normal, velocity, softness):
+    """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
+    for effect in literal_unroll(effects):
+        normal = laws.contact_normal(effect, normal, velocity, softness)
+    return normal
+
+
+def _discover():
+    for module in pkgutil.iter_modules(__path__):
+        found = importlib.import_module(f'{__name__}.{module.name}')
+        if hasattr(found, 'record'):
+            register_effect(module.name, found.record, found.idle, inspect.getdoc(found).splitlines()[0])
+
+
+_discover()

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gravity: the same everywhere, downward."""
+from typing import NamedTuple
+
+from ..material import STANDARD_GRAVITY
+from . import laws
+
+
+class Gravity(NamedTuple):
+    """Uniform gravity `g` [m/s^2] along -z."""
+
+    g: float = STANDARD_GRAVITY
+
+
+@laws.gravity.register(Gravity)
+def _gravity(effect, position):
+    return 0.0, 0.0, -effect.g
+
+
+def record(scene):
+    """Record for `scene`."""
+    return Gravity()
+
+
+def idle(scene):
+    """Why `scene` can do without: never."""
+    return ''

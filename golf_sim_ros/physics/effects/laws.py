@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an effect can say. An effect registers a body for each law it has a word in.
+
+Every effect is a record, a ``NamedTuple`` of floats: its type is chosen when the kernel compiles,
+its fields are free to change while running.
+"""
+from typing import NamedTuple
+
+from .._compile import generic
+from ..vector import ZERO
+
+
+class Flow(NamedTuple):
+    """The air as a flying ball meets it.
+
+    ``velocity`` and ``speed`` of the ball through the air [m/s]; ``spin`` [rad/s]; ``still`` is
+    the ball's own velocity over the ground.
+    """
+
+    velocity: tuple
+    speed: float
+    spin: tuple
+    still: tuple
+
+
+@generic
+def air_velocity(effect, ground, position):
+    """Velocity [m/s] that `effect` adds to the air at `position`."""
+    return ZERO
+
+
+@generic
+def acceleration(effect, flow):
+    """Acceleration [m/s^2] of a flying ball by `effect` in `flow`."""
+    return ZERO
+
+
+@generic
+def spin_rate(effect, flow):
+    """Rate of change of spin [rad/s^2] of a flying ball by `effect` in `flow`."""
+    return ZERO
+
+
+@generic
+def gravity(effect, position):
+    """Acceleration [m/s^2] by `effect` that acts on every ball, in contact or not."""
+    return ZERO
+
+
+@generic
+def contact_normal(effect, normal, velocity, softness):
+    """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
+    return normal

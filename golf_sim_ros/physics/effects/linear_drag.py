@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Air resistance proportional to speed, as in the report "Golf Without Friends" (KTH 2019)."""
+from typing import NamedTuple
+
+from ..vector import scale
+from . import laws
+
+
+class LinearDrag(NamedTuple):
+    """Drag force -c v, `rate` = c/m [1/s].
+
+    The default is an estimate: it gives the deceleration of a golf ball's quadratic drag of
+    coefficient 0.25 at 40 m/s.
+    """
+
+    rate: float = 0.18
+
+
+@laws.acceleration.register(LinearDrag)
+def _acceleration(effect, flow):
+    return scale(-effect.rate, flow.velocity)
+
+
+def record(scene):
+    """Record for `scene`."""
+    return LinearDrag()
+
+
+def idle(scene):
+    """Why `scene` can do without: `drag` is the better law."""
+    return 'an alternative to drag, only on request'

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Spin decay: the air brakes the spin in proportion to the path flown."""
+from typing import NamedTuple
+
+from .. import air
+from ..vector import scale
+from . import laws
+
+# Smits and Smith, Science and Golf II (1994) 340-347: dw/dt = -2.0e-5 V w / r, in air of 1.18.
+SMITS_SMITH = 2.0e-5
+SMITS_SMITH_DENSITY = 1.18  # kg/m^3
+
+
+class SpinDecay(NamedTuple):
+    """Spin falls by the factor exp(-`rate` s) over a path of s through the air; `rate` [1/m]."""
+
+    rate: float
+
+
+@laws.spin_rate.register(SpinDecay)
+def _spin_rate(effect, flow):
+    return scale(-effect.rate * flow.speed, flow.spin)
+
+
+def record(scene):
+    """Record for `scene`."""
+    thickness = air.density(scene.course.air) / SMITS_SMITH_DENSITY
+    return SpinDecay(SMITS_SMITH * thickness / scene.course.ball.radius)
+
+
+def idle(scene):
+    """Why `scene` can do without: in no air."""
+    return '' if scene.course.air.pressure > 0 else 'no air'

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Wind that grows with height over the ground."""
+from math import log
+from typing import NamedTuple
+
+from .._compile import kernel
+from ..ground.surface import ground_height
+from ..vector import scale
+from . import laws
+
+REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
+
+
+class LogProfile(NamedTuple):
+    """u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0), z0 the `roughness` length [m]."""
+
+    roughness: float = 0.01
+
+
+class PowerProfile(NamedTuple):
+    """u = u10 (h / 10 m)^`exponent`."""
+
+    exponent: float = 0.14
+
+
+class UniformProfile(NamedTuple):
+    """The same wind at every height."""
+
+
+class Wind(NamedTuple):
+    """Wind of `velocity` [m/s] at 10 m; `law` 0 uniform, 1 logarithmic, 2 power.
+
+    The law is a number, not a type, so that a course with another law compiles nothing.
+    """
+
+    velocity: tuple
+    law: int
+    parameter: float
+    weight: float
+
+
+@kernel
+def share(effect, height):
+    """Wind at `height` [m] over that at 10 m."""
+    if effect.law == 1:
+        return effect.weight * log(1.0 + max(height, 0.0) / effect.parameter)
+    if effect.law == 2:
+        return (max(height, 0.0) * effect.weight) ** effect.parameter
+    return 1.0
+
+
+@laws.air_velocity.register(Wind)
+def _air_velocity(effect, ground, position):
+    from_ground = position[2]
+    if effect.law != 0:
+        from_ground -= ground_height(ground, position[0], position[1])
+    return scale(share(effect, from_ground), effect.velocity)
+
+
+def blowing(profile, velocity):
+    """`Wind` record of a wind `velocity` [m/s] at 10 m with a `profile`."""
+    velocity = tuple(float(v) for v in velocity)
+    if isinstance(profile, LogProfile):
+        return Wind(velocity, 1, float(profile.roughness),
+                    1.0 / log(1.0 + REFERENCE_HEIGHT / profile.roughness))
+    if isinstance(profile, PowerProfile):
+        return Wind(velocity, 2, float(profile.exponent), 1.0 / REFERENCE_HEIGHT)
+    return Wind(velocity, 0, 1.0, 1.0)
+
+
+def record(scene):
+    """Record for `scene`."""
+    return blowing(scene.course.wind_profile, scene.wind)
+
+
+def idle(scene):
+    """Why `scene` can do without: in still air."""
+    return '' if any(scene.wind) else 'no wind'

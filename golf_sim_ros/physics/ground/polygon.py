@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Polygons in plan: a table of corners, and which of them belong together."""
+from typing import NamedTuple
+
+import numpy as np
+
+from .._compile import kernel
+
+
+class Polygons(NamedTuple):
+    """``corners[first[i]:first[i + 1]]`` are those of polygon i."""
+
+    corners: np.ndarray
+    first: np.ndarray
+
+
+def polygons(outlines):
+    """`Polygons` of sequences of (x, y)."""
+    first = np.cumsum([0] + [len(outline) for outline in outlines]).astype(np.int64)
+    corners = np.array([c for outline in outlines for c in outline], float).reshape(-1, 2)
+    return Polygons(corners, first)
+
+
+def sides(outline):
+    """Pairs of neighbouring corners, the last with the first."""
+    return zip(outline, tuple(outline[1:]) + tuple(outline[:1]))
+
+
+@kernel
+def inside(table, i, x, y):
+    """Whether polygon `i` contains the point (even-odd rule)."""
+    odd = False
+    first = table.first[i]
+    last = table.first[i + 1]
+    j = last - 1
+    for k in range(first, last):
+        ax = table.corners[k, 0]
+        ay = table.corners[k, 1]
+        bx = table.corners[j, 0]
+        by = table.corners[j, 1]
+        if (ay > y) != (by > y) and x < (bx - ax) * (y - ay) / (by - ay) + ax:
+            odd = not odd
+        j = k
+    return odd

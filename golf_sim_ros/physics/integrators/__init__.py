@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Integrators of flight: one file each, found by themselves.
+
+A Runge-Kutta method is a record with a table; `step` is shared. A method of another kind registers
+its own body for `step`.
+"""
+import importlib
+import pkgutil
+from typing import Callable, NamedTuple
+
+from .runge_kutta import step  # noqa: F401
+
+
+class Method(NamedTuple):
+    """A known integrator: its record type, and the name of the field that says how exact it is."""
+
+    record: Callable
+    dial: str
+
+
+METHODS = {}
+
+for _module in pkgutil.iter_modules(__path__):
+    _found = importlib.import_module(f'{__name__}.{_module.name}')
+    if hasattr(_found, 'METHOD'):
+        METHODS[_module.name] = Method(_found.METHOD, _found.METHOD._fields[0])

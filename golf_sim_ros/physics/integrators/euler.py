@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Semi-implicit Euler: what most game engines do. A baseline, of order 1."""
+from typing import NamedTuple
+
+from ..path import lay
+from ..state import STEP
+from ..vector import along, put, scale, vector
+from . import runge_kutta
+
+
+class SemiImplicitEuler(NamedTuple):
+    """Fixed steps: velocity first, then position with the new velocity; ``length`` [s]."""
+
+    length: float
+
+
+@runge_kutta.step.register(SemiImplicitEuler)
+def _step(method, model, ball):
+    h = method.length
+    runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
+    rates = ball['stages'][0]
+    force = vector(rates[3:6])
+    torque = vector(rates[6:9])
+    v1 = along(vector(ball['velocity']), h, force)
+    ball['span'] = h
+    ball['step'] = h
+    put(ball['origin'], vector(ball['position']))
+    put(ball['twist'][3], along(vector(ball['spin']), h, torque))
+    # A straight line at the new velocity, as such an engine moves the ball.
+    lay(ball, scale(h, v1), (v1, v1), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), (torque, torque))
+    ball['ending'] = STEP
+
+
+METHOD = SemiImplicitEuler

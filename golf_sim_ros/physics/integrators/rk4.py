@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The classical Runge-Kutta method of order 4 with fixed steps."""
+from typing import NamedTuple
+
+import numpy as np
+
+from . import runge_kutta
+
+TABLE = np.array([
+    [0, 0, 0, 0],
+    [1 / 2, 0, 0, 0],
+    [0, 1 / 2, 0, 0],
+    [0, 0, 1, 0],
+    [1 / 6, 1 / 3, 1 / 3, 1 / 6]])
+
+
+class RungeKutta4(NamedTuple):
+    """Fixed steps of order 4; ``length`` of a step [s]."""
+
+    length: float
+
+
+@runge_kutta.table.register(RungeKutta4)
+def _table(method):
+    return TABLE
+
+
+@runge_kutta.first_step.register(RungeKutta4)
+def _first_step(method):
+    return method.length
+
+
+METHOD = RungeKutta4

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One step of flight, shared by all Runge-Kutta methods."""
+from math import sqrt
+
+import numpy as np
+
+from .._compile import generic, kernel
+from ..effects import flight_rates
+from ..path import lay
+from ..state import STEP
+from ..vector import along, put, vector
+
+# What a wrong velocity or spin is worth in metres: it goes on for about a second, and 100 rad/s
+# bend a drive by about a metre in that time.
+VELOCITY_WEIGHT = 1.0  # s
+SPIN_WEIGHT = 0.01  # m s
+
+NO_TABLE = np.zeros((1, 1))
+NO_ERROR = np.zeros(1)
+NO_CHANGE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@generic
+def table(method):
+    """Butcher's table of `method`: a row a stage; the last row is the solution's weights.
+
+    So the last stage holds the rates at the step's end, which the next step starts from.
+    """
+    return NO_TABLE
+
+
+@generic
+def error_weights(method):
+    """Weights of the stages in the difference to the embedded method; empty where there is none."""
+    return NO_ERROR
+
+
+@generic
+def first_step(method):
+    """Length [s] of a flight's first step."""
+    return 0.01
+
+
+@generic
+def next_step(method, h, error):
+    """Length of the next step, or of the same again, after one of `h` with an `error` in metres.
+
+    Also whether that step may stand.
+    """
+    return h, True
+
+
+@kernel
+def stage(model, ball, i, state):
+    """Write stage `i`: rates of `state`, the position, velocity and spin in one tuple."""
+    x, y, z, u, v, w, p, q, r = state
+    force, torque = flight_rates(model.effects, model.ground, (x, y, z), (u, v, w), (p, q, r))
+    rates = ball['stages'][i]
+    put(rates[0:3], (u, v, w))
+    put(rates[3:6], force)
+    put(rates[6:9], torque)
+    ball['evaluations'] += 1
+
+
+@kernel
+def mix(ball, weights, count, h):
+    """`h` times the sum of `weights` times the first `count` stages, as one tuple."""
+    k = ball['stages']
+    x = y = z = u = v = w = p = q = r = 0.0
+    for j in range(count):
+        f = h * weights[j]
+        x += f * k[j, 0]
+        y += f * k[j, 1]
+        z += f * k[j, 2]
+        u += f * k[j, 3]
+        v += f * k[j, 4]
+        w += f * k[j, 5]
+        p += f * k[j, 6]
+        q += f * k[j, 7]
+        r += f * k[j, 8]
+    return x, y, z, u, v, w, p, q, r
+
+
+@kernel
+def state_after(ball, change):
+    """The ball's state plus `change`, as one tuple."""
+    a = ball['position']
+    b = ball['velocity']
+    c = ball['spin']
+    return (a[0] + change[0], a[1] + change[1], a[2] + change[2],
+            b[0] + change[3], b[1] + change[4], b[2] + change[5],
+            c[0] + change[6], c[1] + change[7], c[2] + change[8])
+
+
+@kernel
+def error_in_metres(ball, weights, h):
+    """Weighted size of the embedded error estimate."""
+    e = mix(ball, weights, len(weights), h)
+    return sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
+                + VELOCITY_WEIGHT * VELOCITY_WEIGHT * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
+                + SPIN_WEIGHT * SPIN_WEIGHT * (e[6] * e[6] + e[7] * e[7] + e[8] * e[8]))
+
+
+@generic
+def step(method, model, ball):
+    """Lay the next piece of flight: one step from the ball's state. Writes curve, span, step."""
+    rows = table(method)
+    weights = error_weights(method)
+    last = len(rows) - 1
+    h = ball['step'] if ball['step'] > 0.0 else first_step(method)
+    stage(model, ball, 0, state_after(ball, NO_CHANGE))
+    while True:
+        change = NO_CHANGE
+        for i in range(1, last + 1):
+            change = mix(ball, rows[i], i, h)
+            stage(model, ball, i, state_after(ball, change))
+        following, stands = next_step(method, h, error_in_metres(ball, weights, h))
+        ball['step'] = following
+        if stands:
+            break
+        h = following
+    first = ball['stages'][0]
+    final = ball['stages'][last]
+    ball['span'] = h
+    put(ball['origin'], vector(ball['position']))
+    put(ball['twist'][3], along(vector(ball['spin']), 1.0, (change[6], change[7], change[8])))
+    lay(ball, (change[0], change[1], change[2]), (vector(first[0:3]), vector(final[0:3])),
+        (vector(first[3:6]), vector(final[3:6])), (vector(first[6:9]), vector(final[6:9])))
+    ball['ending'] = STEP

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known of a ball: where it is, and the piece of path that it is on.
+
+A ball's path is a chain of pieces. A piece ends at an event or at an integrator's step, never at a
+tick; ticks read it. Times are seconds on the world's clock.
+"""
+from enum import IntEnum
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Phase(IntEnum):
+    """What a ball is doing."""
+
+    REST = 0
+    FLIGHT = 1
+    SLIDE = 2
+    ROLL = 3
+    HOLED = 4
+    WATER = 5
+    OUT = 6
+
+
+# Plain integers for kernels.
+REST, FLIGHT, SLIDE, ROLL, HOLED, WATER, OUT = (int(phase) for phase in Phase)
+
+
+class Shot(NamedTuple):
+    """A strike: launch velocity [m/s] and spin [rad/s] in the course frame."""
+
+    velocity: tuple
+    spin: tuple = (0.0, 0.0, 0.0)
+
+
+# What ends a piece of path.
+STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT = range(6)
+
+NO_PART = -1
+
+BALL = np.dtype([
+    # as of the last tick
+    ('position', 'f8', 3), ('velocity', 'f8', 3), ('spin', 'f8', 3), ('phase', 'i8'),
+    # the contact: part of the ground under it; the normal out of it; until when its bounces,
+    # too small to follow one by one, go on, and how hard they press meanwhile, over m g
+    ('support', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
+    # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
+    # and of the spin; what ends it and on which part of the ground
+    ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
+    ('path', 'f8', (6, 3)), ('twist', 'f8', (4, 3)), ('ending', 'i8'), ('target', 'i8'),
+    # the integrator's next step and its stages: rates of position, velocity, spin
+    ('step', 'f8'), ('stages', 'f8', (8, 9)), ('evaluations', 'i8'),
+    # the shot under way
+    ('playing', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
+    ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'), ('flew', 'i8'),
+    ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
+    ('bounces', 'i8'), ('stalled', 'i8'),
+], align=True)
+
+# What happened, for the world to report.
+BOUNCE, SHOT_ENDS = range(2)
+
+EVENT = np.dtype([
+    ('time', 'f8'), ('ball', 'i8'), ('kind', 'i8'), ('material', 'i8'),
+    ('position', 'f8', 3), ('normal', 'f8', 3),
+    ('velocity_before', 'f8', 3), ('velocity_after', 'f8', 3),
+    ('spin_before', 'f8', 3), ('spin_after', 'f8', 3), ('impulse', 'f8', 3),
+], align=True)
+
+
+class Log(NamedTuple):
+    """Events of one call: ``events[:count[0]]`` are filled."""
+
+    events: np.ndarray
+    count: np.ndarray
+
+
+def new_log(capacity=64):
+    """Empty `Log` for up to `capacity` events."""
+    return Log(np.zeros(capacity, EVENT), np.zeros(1, np.int64))

@@ -1,0 +1,310 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A course with balls on it, in time."""
+import re
+from math import isfinite
+from typing import NamedTuple
+
+import numpy as np
+
+from . import model as model_
+from .accuracy import preset
+from .advance import LOG_FULL, advance, interrupt, launch, lay_next, lower, moves, read, stand
+from .ground import surface
+from .report import STATUS, collision, objection, result, three
+from .state import BALL, BOUNCE, NO_PART, REST, TIME_LIMIT, Phase, new_log
+from .vector import ZERO
+
+APART = 0.5  # m between balls on the tee
+FALL = 1e4  # m: how far down ground is looked for
+RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
+MOST_WIND = 100.0  # m/s
+
+
+class Rejected(ValueError):
+    """A strike that can't be taken; the message says why."""
+
+
+class BallState(NamedTuple):
+    """A ball at the world's time: SI units, course frame; `lie` is the material under it."""
+
+    position: tuple
+    velocity: tuple
+    spin: tuple
+    phase: Phase
+    lie: str
+
+
+class World:
+    """Balls on a course.
+
+    Parameters
+    ----------
+    course : Course
+    balls : sequence of str, or int
+        Names, or how many (``ball_0``, ...).
+    effects : 'auto' or sequence of str
+        What to simulate; auto: what the scene calls for.
+    accuracy : str or Preset
+        'sketch', 'standard' or 'reference'.
+    wind : (float, float, float)
+        Velocity of the air 10 m above the ground [m/s].
+
+    Raises
+    ------
+    ValueError
+        An unknown effect or accuracy, a bad name, no ground under the tee.
+    """
+
+    def __init__(self, course, balls=('ball',), effects='auto', accuracy='standard', wind=ZERO):
+        self.course = course
+        self.names = checked_names(balls)
+        self.time = 0.0
+        self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
+        self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
+        self._materials = model_.material_names(course)
+        self._log, self._now, self._shots = new_log(), 0.0, 0
+        self._balls = np.zeros(len(self.names), BALL)
+        self._rebuild()
+        self._tee_up()
+
+    def _rebuild(self):
+        """Choose the effects anew and build the model for kernels."""
+        chosen = model_.choose(self._asked, self.course, len(self.names), self._wind)
+        self._records, self.effects_off = chosen
+        self._model = model_.build(self.course, self._records.values(), self._preset)
+
+    def _tee_up(self):
+        """Put all balls side by side on the tee."""
+        middle = 0.5 * (len(self.names) - 1)
+        for i, name in enumerate(self.names):
+            self.place(name, (self.course.tee[0], self.course.tee[1] + APART * (i - middle)))
+
+    @property
+    def effects_on(self):
+        """Names of the effects that are simulated now."""
+        return tuple(self._records)
+
+    @property
+    def accuracy(self):
+        """Name of the accuracy preset; may be set while balls move."""
+        return self._accuracy
+
+    @accuracy.setter
+    def accuracy(self, accuracy):
+        self._preset, self._accuracy = preset(accuracy), accuracy
+        self._model = self._model._replace(method=self._preset.method, limits=self._preset.limits)
+        self._begin_new_pieces()
+
+    @property
+    def moving(self):
+        """Whether any ball moves."""
+        return any(moves(ball['phase']) for ball in self._balls)
+
+    def __getitem__(self, name):
+        """Return the `BallState` of the ball called `name`."""
+        ball = self._ball(name)
+        return BallState(three(ball['position']), three(ball['velocity']), three(ball['spin']),
+                         Phase(int(ball['phase'])), self._lie(ball))
+
+    def _ball(self, name):
+        if name not in self.names:
+            raise ValueError(f'ball {name!r} is unknown; known: {", ".join(self.names)}')
+        return self._balls[self.names.index(name)]
+
+    def _lie(self, ball):
+        if ball['phase'] == Phase.FLIGHT or ball['support'] < 0:
+            return ''
+        return self._materials[surface.material_of(self._model.ground, ball['support'])]
+
+    def place(self, name, position, velocity=None, spin=None):
+        """Put a ball down: at (x, y) on the ground there, or exactly at (x, y, z).
+
+        With a `velocity` [m/s] or `spin` [rad/s] it sets off, without being struck.
+
+        Raises
+        ------
+        ValueError
+            Not finite, no ground at (x, y), or inside the ground.
+        """
+        ball = self._ball(name)
+        before = ball.copy()
+        try:
+            self._put_down(ball, tuple(map(float, position)))
+        except ValueError:
+            self._balls[self.names.index(name)] = before
+            raise
+        ball['velocity'], ball['spin'] = velocity or ZERO, spin or ZERO
+        ball['playing'] = 0
+        self._settle_clock()
+        launch(self._model, ball, self._now)
+
+    def _put_down(self, ball, position):
+        if not all(map(isfinite, position)):
+            raise ValueError(f'position {position} is not finite')
+        if len(position) == 3:
+            ball['position'] = position
+            stand(self._model, ball)
+            self._refuse_overlap(position)
+            return
+        x, y = position
+        if not lower(self._model, ball, x, y, *self._from_above(x, y)):
+            raise ValueError(f'no ground at x {x:g}, y {y:g}')
+
+    def _from_above(self, x, y):
+        """Height over all ground at x, y, and how far down from there ground may lie."""
+        ground = self._model.ground
+        radius = self._model.ball.radius
+        highest, part = surface.top(ground, x, y)
+        tops = [kind['high'][:, 2].max(initial=-np.inf) for arrays in ground.kinds for kind in arrays
+                if getattr(kind, 'dtype', None) is not None and kind.dtype.names and 'high' in kind.dtype.names]
+        tops = [t for t in tops if np.isfinite(t)] + ([highest] if part >= 0 else [])
+        start = max(tops, default=0.0) + 3 * radius
+        return start, start - max(ground.lowest - 1.0, start - FALL)
+
+    def _refuse_overlap(self, position):
+        ground = self._model.ground
+        for part in range(surface.parts(ground)):
+            distance, _ = surface.nearest(ground, part, position)
+            if (distance < self._model.ball.radius - 1e-6
+                    and surface.touchable(ground, part, position)):
+                raise ValueError(f'position {position} lies {self._model.ball.radius - distance:.3g} m '
+                                 'deep in the ground')
+
+    def strike(self, name, velocity, spin=ZERO):
+        """Strike a resting ball: launch `velocity` [m/s] and `spin` [rad/s].
+
+        Raises
+        ------
+        Rejected
+            Not finite, all zero, over 150 m/s or 2500 rad/s, or the ball moves or is holed.
+        """
+        ball = self._ball(name)
+        velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))
+        reason = objection(velocity, spin)
+        if not reason and ball['phase'] != REST:
+            reason = f'ball {name} is ' + ('holed' if ball['phase'] == Phase.HOLED else 'in motion')
+        if reason:
+            raise Rejected(reason)
+        self._settle_clock()
+        self._shots += 1
+        ball['velocity'], ball['spin'], ball['launch'], ball['launch_spin'] = velocity, spin, velocity, spin
+        ball['struck_at'], ball['highest'] = ball['position'], ball['position'][2]
+        ball['playing'], ball['shot'], ball['struck'] = 1, self._shots, self._now
+        for counter in ('flew', 'landed', 'landing', 'bounces', 'landed_at', 'landing_velocity'):
+            ball[counter] = 0
+        launch(self._model, ball, self._now)
+
+    def _settle_clock(self):
+        """Start the clock of paths anew when nothing moves: same strikes give the same bits."""
+        if not self.moving:
+            self._now = 0.0
+
+    def set_wind(self, wind):
+        """Let the air move with `wind` [m/s] at 10 m over the ground from now on.
+
+        Raises
+        ------
+        ValueError
+            Not finite, or over 100 m/s.
+        """
+        wind = checked_wind(wind)
+        if wind == self._wind:
+            return
+        self._wind = wind
+        self._records, self.effects_off = model_.choose(
+            self._asked, self.course, len(self.names), wind)
+        self._model = self._model._replace(effects=tuple(self._records.values()))
+        self._begin_new_pieces()
+
+    def _begin_new_pieces(self):
+        interrupt(self._model, self._balls, self._now)
+
+    def advance(self, dt):
+        """Let `dt` seconds pass.
+
+        Returns
+        -------
+        list of Collision and Result
+            What happened, in order of time.
+        """
+        events = []
+        start = self.time - self._now
+        until = self._now + dt
+        while True:
+            status = advance(self._model, self._balls, until, self._log)
+            events += self._told(start)
+            if status != LOG_FULL:
+                break
+        self._now = until
+        self.time += dt
+        return events
+
+    def _told(self, start):
+        """Reports of the logged events; `start` is the world's time at the paths' zero."""
+        events = []
+        for event in self._log.events[:self._log.count[0]]:
+            ball, name = self._balls[event['ball']], self.names[event['ball']]
+            time = start + float(event['time'])
+            if event['kind'] == BOUNCE:
+                events.append(collision(event, time, name, self._materials[event['material']]))
+            else:
+                events.append(self._ended(ball, name, time, float(event['time']), event['material']))
+        self._log.count[0] = 0
+        return events
+
+    def _ended(self, ball, name, time, end, ending):
+        status = 'time_limit' if ending == TIME_LIMIT else STATUS[Phase(int(ball['phase']))]
+        told = result(ball, name, status, time, end, self.course.hole, self._lie(ball))
+        if ball['phase'] == Phase.OUT:
+            self._drop(ball)
+        return told
+
+    def _drop(self, ball):
+        """Put a lost ball back where it was struck."""
+        ball['position'] = ball['struck_at']
+        ball['velocity'], ball['spin'] = ZERO, ZERO
+        ball['phase'] = REST
+        stand(self._model, ball)
+        lay_next(self._model, ball, self._now)
+
+    def reset(self):
+        """Put all balls back to the start.
+
+        Returns
+        -------
+        list of Result
+            Shots under way, with status 'aborted'.
+        """
+        aborted = []
+        for ball, name in zip(self._balls, self.names):
+            if ball['playing']:
+                read(ball, self._now)
+                aborted.append(result(ball, name, 'aborted', self.time, self._now, self.course.hole,
+                                      self._lie(ball)))
+        self._balls['phase'] = REST
+        self._balls['playing'] = 0
+        self._balls['support'] = NO_PART
+        self._tee_up()
+        return aborted
+
+
+def checked_names(balls):
+    """Names of `balls`, a number or a sequence of names."""
+    names = tuple(f'ball_{i}' for i in range(balls)) if isinstance(balls, int) else tuple(balls)
+    for name in names:
+        if not re.fullmatch('[a-z][a-z0-9_]*', name) or name in RESERVED:
+            raise ValueError(f'ball name {name!r} is not allowed: lower-case letters, digits and _, '
+                             f'not {", ".join(sorted(RESERVED))}')
+    if not names or len(set(names)) < len(names):
+        raise ValueError(f'ball names {names} must be at least one and all different')
+    return names
+
+
+def checked_wind(wind):
+    """`wind` as three floats."""
+    wind = tuple(map(float, wind))
+    if len(wind) != 3 or not all(map(isfinite, wind)):
+        raise ValueError(f'wind {wind} is not three finite numbers')
+    if sum(x * x for x in wind) > MOST_WIND * MOST_WIND:
+        raise ValueError(f'wind {wind} is over {MOST_WIND:g} m/s')
+    return wind
