@@ -116,7 +116,7 @@ class Player(Node):
         """
         self.find_sim()
         self._shots.publish(twist(velocity, spin))
-        while not self._wait(lambda: self._own_result(velocity, spin), self.timeout):
+        while not self._wait(lambda: self._own_result(velocity, spin), 1.0):
             if not self._results.get_publisher_count():
                 raise NoShot('the sim went away before the shot ended')
         result = self._own_result(velocity, spin)

@@ -7,6 +7,7 @@ from rclpy.exceptions import NameValidationException
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
+from ..environment import complete_environment
 from .launch_monitor import Launch, parted, velocity_and_spin
 from .player import NoShot, Player
 from .result_table import result_table
@@ -138,6 +139,7 @@ def main(args=None):
 
 def begun(args):
     """Return the shot that was typed, after ROS was started with its own arguments."""
+    complete_environment()
     try:
         typed = parsed(remove_ros_args(args)[1:])
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)

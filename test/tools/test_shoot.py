@@ -103,8 +103,8 @@ def test_from_the_longest_club_to_the_shortest_speed_and_carry_fall_and_spin_ris
 
 @pytest.mark.parametrize('text, name', [
     ('driver', 'driver'), ('Driver', 'driver'), ('7i', '7i'), ('7-iron', '7i'), ('7 Iron', '7i'),
-    ('3w', '3w'),
-    ('3-wood', '3w'), ('PW', 'pw'), ('pitching wedge', 'pw'), ('putt', 'putter'), ('hybrid', 'hybrid')])
+    ('3w', '3w'), ('3-wood', '3w'),
+    ('PW', 'pw'), ('pitching wedge', 'pw'), ('putt', 'putter'), ('hybrid', 'hybrid')])
 def test_clubs_are_found_as_people_write_them(text, name):
     assert club(text) is CLUBS[name]
 
