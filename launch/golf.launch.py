@@ -2,7 +2,7 @@
 """The simulator, the wind and, if wanted, RViz: ``ros2 launch golf_sim_ros golf.launch.py rviz:=true``."""
 
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument
+from launch.actions import DeclareLaunchArgument, Shutdown
 from launch.conditions import IfCondition
 from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 from launch_ros.actions import Node
@@ -32,7 +32,7 @@ def generate_launch_description():
     strings = {name: ParameterValue(LaunchConfiguration(name), value_type=str)
                for name in ('course', 'accuracy')}
     sim = Node(package='golf_sim_ros', executable='sim_node', namespace=namespace, output='screen',
-               parameters=[strings])
+               parameters=[strings], on_exit=Shutdown(reason='the simulator has ended'))
     wind = Node(package='golf_sim_ros', executable='wind_node', namespace=namespace, output='screen',
                 parameters=[LaunchConfiguration('wind_params')],
                 condition=IfCondition(LaunchConfiguration('wind')))
