@@ -7,7 +7,7 @@ import pytest
 from golf_sim_ros.tools.clubs import CLUBS
 from golf_sim_ros.tools.launch_monitor import Launch
 
-shoot = pytest.importorskip('golf_sim_ros.tools.shoot', exc_type=ImportError)
+shoot = pytest.importorskip('golf_sim_ros.tools.shoot')
 
 MPH, RPM = 0.44704, 2.0 * pi / 60.0
 
