@@ -17,7 +17,8 @@ ROS = ('rclpy', 'rcl_interfaces', 'std_msgs', 'std_srvs', 'geometry_msgs', 'visu
 def test_the_contracts_of_import_linter_hold():
     pytest.importorskip('importlinter')
     code = 'from importlinter.cli import lint_imports_command; lint_imports_command()'
-    check = subprocess.run([sys.executable, '-c', code, '--no-cache'], cwd=ROOT, capture_output=True, text=True)
+    check = subprocess.run([sys.executable, '-c', code, '--no-cache'],
+                           cwd=ROOT, capture_output=True, text=True)
     assert check.returncode == 0, check.stdout + check.stderr
     assert '0 broken' in check.stdout
 

@@ -41,7 +41,8 @@ def test_a_file_starts_with_its_licence_and_says_what_it_is(path):
 @pytest.mark.parametrize('path', PACKAGE, ids=name)
 def test_all_that_is_public_has_a_docstring_with_a_line_that_stands_alone(path):
     tree = ast.parse(path.read_text(encoding='utf-8'))
-    wrong = [f'{name(path)}:{node.lineno} {title}' for title, node in public(tree) if not well_described(node)]
+    wrong = [f'{name(path)}:{node.lineno} {title}'
+             for title, node in public(tree) if not well_described(node)]
     assert not wrong
 
 
@@ -58,11 +59,11 @@ def public(tree, inside=''):
 def well_described(node):
     """Whether the docstring of `node` is one line, or a first line and an empty one before the rest.
 
-    A property or setter may leave it out: its name and class say what it is.
+    A property may leave it out, and a callback named after what it waits for: their names say it.
     """
     docstring = ast.get_docstring(node)
     if docstring is None:
-        return bool(getattr(node, 'decorator_list', None))
+        return bool(node.decorator_list) or node.name.startswith('on_')
     lines = docstring.splitlines()
     return bool(lines[0].strip()) and (len(lines) == 1 or not lines[1].strip())
 
