@@ -8,7 +8,7 @@ import sys
 import pytest
 
 try:
-    from processes import Client, Process
+    from processes import Client, Golfer, Process
 except ImportError:  # no ROS 2 here: nothing in this folder can run
     collect_ignore_glob = ['test_*.py']
 
@@ -75,3 +75,16 @@ def make_client(domain):
     yield make
     for client in clients:
         client.close()
+
+
+@pytest.fixture
+def make_golfer(domain):
+    """`make_golfer(namespace, ball)` gives a `Golfer` once the sim there answers, closed after the test."""
+    golfers = []
+
+    def make(namespace='', ball='ball'):
+        golfers.append(Golfer(namespace, ball))
+        return golfers[-1]
+    yield make
+    for golfer in golfers:
+        golfer.close()

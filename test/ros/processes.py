@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What tests over DDS share: processes to start, a client to talk to them, and patience."""
+import json
 import os
 import signal
 import subprocess
@@ -7,12 +8,18 @@ import sys
 import threading
 import time
 
+from geometry_msgs.msg import PointStamped, PoseStamped, Twist
 import pytest
 import rclpy
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
 
 DEADLINE = 90.0  # s: a first start compiles
+LASTING = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def wait_until(condition, what='it happened', seconds=DEADLINE):
@@ -115,3 +122,58 @@ class Client:
         self.thread.join()
         self.node.destroy_node()
         self.context.try_shutdown()
+
+
+class Golfer(Client):
+    """A client with one ball: strikes it, and has seen all that was told since it came."""
+
+    def __init__(self, namespace='', ball='ball'):
+        super().__init__(namespace)
+        self.ball = ball
+        self.poses = self.listen(PoseStamped, f'{ball}/pose')
+        self.collisions = self.listen(String, 'collisions', LASTING)
+        self.contacts = self.listen(PointStamped, f'{ball}/contact', 100)
+        self.results = self.listen(String, 'shot/result', LASTING)
+        self.shots = self.publisher(Twist, f'{ball}/shot')
+        wait_until(lambda: self.poses, 'the ball told where it is')
+
+    def strike(self, velocity, spin=(0.0, 0.0, 0.0)):
+        """Send a strike."""
+        message = Twist()
+        message.linear.x, message.linear.y, message.linear.z = velocity
+        message.angular.x, message.angular.y, message.angular.z = spin
+        self.shots.publish(message)
+
+    def results_of(self, velocity, spin=(0.0, 0.0, 0.0)):
+        """All results of strikes with this velocity and spin (None: was not finite)."""
+        told = [json.loads(message.data) for message in self.results]
+        return [result for result in told
+                if result['velocity'] == list(velocity) and result['spin'] == list(spin)]
+
+    def play(self, velocity, spin=(0.0, 0.0, 0.0)):
+        """The result of a strike that is like no other before."""
+        self.strike(velocity, spin)
+        return wait_until(lambda: self.results_of(velocity, spin), f'the result of {velocity} came')[0]
+
+    def impacts(self):
+        """All collisions, read."""
+        return [json.loads(message.data) for message in self.collisions]
+
+    def heartbeat(self):
+        """Wait until the sim has told twice more where the ball is: all it told before has arrived."""
+        seen = len(self.poses)
+        wait_until(lambda: len(self.poses) >= seen + 2, 'the sim told where the ball is')
+
+    def reset(self):
+        """All balls back to the start."""
+        assert self.call(Trigger, 'golf_sim/reset', Trigger.Request()).success
+
+
+def seconds(stamp):
+    """A stamp as a number [s]."""
+    return stamp.sec + 1e-9 * stamp.nanosec
+
+
+def place(pose):
+    """Position of a PoseStamped."""
+    return pose.pose.position.x, pose.pose.position.y, pose.pose.position.z

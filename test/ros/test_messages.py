@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Messages say what the records say, and JSON keeps its order and rounding."""
+import json
+from math import cos, inf, nan, pi, sin
+
+from hypothesis import given, strategies
+import pytest
+
+from golf_sim_ros import account, messages, pace
+from golf_sim_ros.orientation import turned, UPRIGHT
+from golf_sim_ros.physics import Collision, Result
+
+RESULT = Result(
+    7, 'ball', 'at_rest', 251.23456, -2.00001, 268.04999, 3.49999, 31.0, 6.12345678, 14.0, 112.4, 'fairway',
+    25.0, 0.7, 4, 123.456789012, (268.0, 3.5, -0.00001), (73.35, 0.0, 14.1), (0.0, -281.28111, 0.0), '')
+
+
+def test_a_result_has_its_keys_in_order_and_is_rounded_for_people():
+    told = json.loads(messages.result_json(RESULT, 9).data)
+    assert list(told) == [
+        'shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time', 'duration',
+        'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time', 'position', 'velocity', 'spin',
+        'reason']
+    assert (told['shot'], told['carry'], told['time']) == (9, 251.2346, 123.456789)
+    assert told['spin'] == [0.0, -281.2811, 0.0] and told['bounces'] == 4
+
+
+def test_no_number_is_told_as_minus_zero():
+    assert '-0.0,' not in messages.result_json(RESULT, 1).data
+    assert '-0.0]' not in messages.result_json(RESULT, 1).data
+
+
+def test_without_a_hole_to_hole_is_null():
+    assert json.loads(messages.result_json(RESULT._replace(to_hole=None), 1).data)['to_hole'] is None
+
+
+def test_a_rejection_tells_what_was_not_finite_as_null_in_strict_json():
+    data = messages.rejection_json(3, 'red', (nan, 1.0, -inf), (0.0, 0.0, 2.0), 'because').data
+    told = json.loads(data, parse_constant=pytest.fail)
+    assert list(told) == ['shot', 'ball', 'status', 'velocity', 'spin', 'reason']
+    assert told == {'shot': 3, 'ball': 'red', 'status': 'rejected', 'velocity': [None, 1.0, None],
+                    'spin': [0.0, 0.0, 2.0], 'reason': 'because'}
+
+
+def test_a_collision_is_told_in_full_precision():
+    third = (1 / 3, 0.0, 0.0)
+    data = messages.collision_json(Collision(0.1, 'ball', 'bounce', 'sand', *[third] * 7)).data
+    told = json.loads(data)
+    assert (told['with'], told['normal'][0], told['time']) == ('sand', 1 / 3, 0.1)
+    assert 'with_' not in told
+
+
+def test_a_stamp_is_the_start_plus_simulated_time_to_the_nanosecond():
+    stamp = messages.header('course', 1_700_000_000_900_000_000, 0.104).stamp
+    assert (stamp.sec, stamp.nanosec) == (1_700_000_001, 4_000_000)
+
+
+def test_a_quarter_turn_about_z_then_about_x_is_their_product():
+    half = sin(pi / 4)
+    once = turned(UPRIGHT, (0.0, 0.0, pi), 0.5)
+    assert once == pytest.approx((0.0, 0.0, half, half))
+    assert turned(once, (pi, 0.0, 0.0), 0.5) == pytest.approx((0.5, -0.5, 0.5, 0.5))
+
+
+@given(strategies.floats(-3.0, 3.0), strategies.integers(1, 50))
+def test_many_small_turns_about_one_axis_are_one_large_turn(rate, parts):
+    orientation = UPRIGHT
+    for _ in range(parts):
+        orientation = turned(orientation, (0.0, rate, 0.0), 1.0 / parts)
+    assert orientation == pytest.approx((0.0, sin(rate / 2), 0.0, cos(rate / 2)), abs=1e-12)
+
+
+def test_a_ball_that_does_not_spin_does_not_turn():
+    assert turned((0.6, 0.0, 0.0, 0.8), (0.0, 0.0, 0.0), 1.0) == (0.6, 0.0, 0.0, 0.8)
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """A wall clock that is set by hand."""
+    hands = [100.0]
+    monkeypatch.setattr(pace, 'monotonic', lambda: hands[0])
+    return hands
+
+
+def test_ticks_that_a_late_call_missed_are_made_up(clock):
+    steps, found = pace.Pace(0.004), []
+    for late in (0.02, 0.02, 0.09, 0.001, 0.001, 0.018):
+        clock[0] += late
+        found.append(steps.due(0.25))
+    assert sum(found) in (37, 38) and found[2] in (22, 23) and steps.lost == 0.0
+
+
+def test_a_long_stop_is_not_caught_up_in_one_leap(clock):
+    steps = pace.Pace(0.004)
+    clock[0] += 3600.0
+    assert steps.due(0.25) == 62
+    assert steps.lost == pytest.approx(3599.75)
+
+
+def test_time_that_was_skipped_does_not_count(clock):
+    steps = pace.Pace(0.004)
+    clock[0] += 10.0
+    steps.skip()
+    clock[0] += 0.0101
+    assert steps.due(0.25) == 2
+
+
+def test_the_log_tells_a_drive_as_a_player_would():
+    assert account.line(RESULT) == (
+        'driver-like shot: carry 251 m, total 268 m, 3 m left, fairway, 112 m to the hole')
+
+
+def test_the_log_tells_a_putt_to_the_centimetre_and_without_carry():
+    putt = RESULT._replace(velocity=(2.0, 0.0, 0.0), carry=0.0, total=3.456, side=-0.021, lie='green',
+                           to_hole=0.5)
+    assert account.line(putt) == 'putt: total 3.46 m, 0.02 m right, green, 0.50 m to the hole'
+
+
+def test_the_log_tells_how_a_shot_ended_that_did_not_come_to_rest():
+    assert 'out of bounds' in account.line(RESULT._replace(status='out_of_bounds', lie='rough'))
+    assert 'to the hole' not in account.line(RESULT._replace(status='holed'))
+
+
+@pytest.mark.parametrize('velocity, kind', [
+    ((73.0, 0.0, 14.0), 'driver-like shot'), ((50.0, 0.0, 15.0), 'iron-like shot'),
+    ((35.0, 0.0, 20.0), 'wedge-like shot'), ((8.0, 0.0, 6.0), 'chip'), ((3.0, -1.0, 0.0), 'putt'),
+    ((0.0, 0.0, 60.0), 'wedge-like shot')])
+def test_a_shot_is_called_after_its_launch(velocity, kind):
+    assert account.kind(velocity) == kind
