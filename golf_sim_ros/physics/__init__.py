@@ -9,12 +9,14 @@ from .ground.patch import Patch
 from .ground.plane import Plane
 from .integrators import METHODS
 from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
+from .play import Play, ground_height, simulate, simulate_many
 from .report import Collision, Result
 from .state import Phase, Shot
 from .world import BallState, Rejected, World
 
 __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'EFFECTS', 'LogProfile',
-    'METHODS', 'Material', 'PENNER', 'Patch', 'Phase', 'Plane', 'PowerProfile', 'Preset', 'Rejected',
-    'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'register_effect',
-    'rolling_resistance_of_stimp', 'standard_atmosphere']
+    'METHODS', 'Material', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected',
+    'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'ground_height',
+    'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
+    'standard_atmosphere']

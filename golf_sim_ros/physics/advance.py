@@ -7,14 +7,16 @@ read at the time asked for. Nothing ever steps to a tick, so paths do not depend
 """
 from math import inf
 
-from ._compile import kernel
+import numpy as np
+
+from ._compile import entry, kernel
 from . import path
-from .contact import bent_piece, flat_piece, settle
+from .contact import STILL, bent_piece, flat_piece, settle, stand_on
 from .detect import IN_THE_AIR, ON_EDGE, ON_FLAT, first_border, first_contact
 from .ground import surface
 from .impact import MANY_STALLS, cross_border, meet
 from .integrators import step
-from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, OUT, REST, ROLL, SHOT_ENDS, SLIDE, SLIP_STOPS,
+from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, OUT, REST, ROLL, SHOT_ENDS, SLIDE, SLIP_STOPS,
                     STEP, TIME_LIMIT)
 from .vector import ZERO, along, cross, dot, put, scale, vector
 
@@ -24,7 +26,7 @@ EVENTS_A_BALL = 2  # that one piece's end can log
 CAUGHT_STEP = 1e-4  # s in which a ball caught between surfaces moves freely
 
 
-@kernel
+@entry
 def advance(model, balls, until, log):
     """Advance `balls` to the time `until` [s]. Writes balls and log.
 
@@ -58,7 +60,7 @@ def first_due(balls, until):
 @kernel
 def read(ball, now):
     """Write the ball's position, velocity and spin at `now`, on its present piece."""
-    if moves(ball['phase']):
+    if moves(ball['phase']) and now > ball['begin']:
         time = now - ball['begin']
         put(ball['position'], path.position(ball, time))
         put(ball['velocity'], path.velocity(ball, time))
@@ -76,19 +78,22 @@ def resolve(model, ball, number, log):
     """Bring the ball to the end of its piece and let happen what ends it."""
     now = ball['end']
     ending = ball['ending']
-    keep_highest(ball)
-    read(ball, now)
-    if ending == HIT:
+    if ending != LAUNCH:
+        keep_highest(ball)
+        read(ball, now)
+    if ending == LAUNCH:
+        launch(model, ball, now)
+    elif ending == HIT:
         note_landing(ball, now)
-        meet(model, ball, number, now, log)
+        meet(model.land, ball, number, now, log)
     elif ending == BORDER:
-        cross_border(model, ball, now)
+        cross_border(model.land, ball, now)
     elif ball['phase'] != FLIGHT:
         if ending == SLIP_STOPS:
             stop_slip(model, ball)
         elif ending == BALL_STOPS:
             put(ball['velocity'], ZERO)
-        settle(model, ball, now)
+        settle(model.land, ball, now)
     if is_out(model, ball):
         ball['phase'] = OUT
     if ball['playing'] and (not moves(ball['phase']) or ending == TIME_LIMIT):
@@ -100,7 +105,7 @@ def stop_slip(model, ball):
     """Give the ball the spin of rolling. Writes spin."""
     normal = vector(ball['normal'])
     turning = dot(vector(ball['spin']), normal)
-    rolling = scale(1.0 / model.ball.radius, cross(normal, vector(ball['velocity'])))
+    rolling = scale(1.0 / model.land.ball.radius, cross(normal, vector(ball['velocity'])))
     put(ball['spin'], along(rolling, turning, normal))
     ball['phase'] = ROLL
 
@@ -108,16 +113,18 @@ def stop_slip(model, ball):
 @kernel
 def is_out(model, ball):
     """Whether the ball fell below all ground, or is on the ground outside the bounds."""
-    if ball['position'][2] < model.ground.lowest - 10.0 * model.ball.radius:
+    if ball['position'][2] < model.land.ground.lowest - 10.0 * model.land.ball.radius:
         return True
     on_ground = ball['phase'] != FLIGHT or ball['ending'] == HIT
-    return on_ground and not surface.in_bounds(model.ground, ball['position'][0], ball['position'][1])
+    return on_ground and not surface.in_bounds(model.land.ground, ball['position'][0], ball['position'][1])
 
 
 @kernel
 def end_shot(ball, number, now, log):
-    """Log the end of the ball's shot. Writes playing."""
+    """Log the end of the ball's shot. Writes playing, ended."""
+    ball['ended'] = now
     if moves(ball['phase']):
+        ball['over_time'] = 1
         ball['phase'] = REST
         put(ball['velocity'], ZERO)
         put(ball['spin'], ZERO)
@@ -127,7 +134,6 @@ def end_shot(ball, number, now, log):
     event['time'] = now
     event['ball'] = number
     event['kind'] = SHOT_ENDS
-    event['material'] = ball['ending']
 
 
 @kernel
@@ -146,12 +152,12 @@ def lay_next(model, ball, now):
     if ball['stalled'] > MANY_STALLS:
         until = min(until, CAUGHT_STEP)
     else:
-        until, part, hit = first_contact(model.ground, ball, model.ball.radius, until, on)
+        until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
         if hit:
             ball['ending'] = HIT
             ball['target'] = part
     if on == ON_FLAT:
-        until, crosses = first_border(model.ground, ball, model.ball.radius, until)
+        until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
         if crosses:
             ball['ending'] = BORDER
     if until < ball['span'] and ball['ending'] != HIT and ball['ending'] != BORDER:
@@ -165,12 +171,12 @@ def lay_next(model, ball, now):
 @kernel
 def lay_contact(model, ball, now):
     """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
-    _, normal = surface.nearest(model.ground, ball['support'], vector(ball['position']))
+    _, normal = surface.nearest(model.land.ground, ball['support'], vector(ball['position']))
     put(ball['normal'], normal)
-    if surface.flat_under(model.ground, ball['support'], vector(ball['position'])):
-        flat_piece(model, ball, now)
+    if surface.flat_under(model.land.ground, ball['support'], vector(ball['position'])):
+        flat_piece(model.land, ball, now)
         return ON_FLAT
-    bent_piece(model, ball)
+    bent_piece(model.land, ball)
     return ON_EDGE
 
 
@@ -210,52 +216,73 @@ def note_landing(ball, now):
 
 @kernel
 def launch(model, ball, now):
-    """Set a ball going from its state at `now`: in the air, or along the ground under it."""
-    normal = vector(ball['normal'])
+    """Decide how a ball sets off from its state: in the air, or along the ground under it."""
     ball['step'] = 0.0
     ball['stalled'] = 0
     ball['tail_end'] = now
-    lift = dot(vector(ball['velocity']), normal)
-    if ball['support'] >= 0 and abs(lift) <= 1e-9:
+    ball['phase'] = FLIGHT
+    lift = dot(vector(ball['velocity']), vector(ball['normal']))
+    if ball['support'] >= 0 and abs(lift) <= STILL:
         ball['phase'] = SLIDE
-        settle(model, ball, now)
-    else:
-        ball['phase'] = FLIGHT
-    lay_next(model, ball, now)
+        settle(model.land, ball, now)
 
 
-@kernel
-def interrupt(model, balls, now):
-    """Begin new pieces at `now` for the balls in flight: their surroundings have changed."""
-    for i in range(len(balls)):
-        if balls[i]['phase'] == FLIGHT:
-            read(balls[i], now)
-            lay_next(model, balls[i], now)
+@entry
+def put_down(model, ball, position, depth):
+    """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
 
-
-@kernel
-def lower(model, ball, x, y, height, depth):
-    """Lower a ball along z from `height` by at most `depth` until it touches. Writes contact.
-
-    Returns whether it touched anything.
+    Writes position, support and normal; the ball is at rest. Returns whether it touches anything,
+    and how deep [m] it lies in the ground.
     """
-    put(ball['position'], (x, y, height))
-    put(ball['origin'], (x, y, height))
+    put(ball['position'], position)
     put(ball['velocity'], ZERO)
     put(ball['spin'], ZERO)
-    ball['span'] = 1.0
-    down = (0.0, 0.0, -depth)
-    path.lay(ball, down, (down, down), (ZERO, ZERO), (ZERO, ZERO))
-    time, part, hit = first_contact(model.ground, ball, model.ball.radius, 1.0, IN_THE_AIR)
-    if hit:
-        put(ball['position'], (x, y, height - depth * time))
-        stand(model, ball)
-    return hit
+    if depth > 0.0:
+        way = (0.0, 0.0, -depth)
+        ball['span'] = 1.0
+        put(ball['origin'], position)
+        path.lay(ball, way, (way, way), (ZERO, ZERO), (ZERO, ZERO))
+        time, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, 1.0, IN_THE_AIR)
+        if hit:
+            put(ball['position'], path.position(ball, time))
+    part, normal = surface.touched(model.land.ground, vector(ball['position']), model.land.ball.radius, ZERO)
+    stand_on(model.land, ball, part, normal)
+    return part >= 0, surface.depth(model.land.ground, vector(ball['position']), model.land.ball.radius)
 
 
-@kernel
-def stand(model, ball):
-    """Find out what a ball at its position touches. Writes support and normal."""
-    part, normal = surface.touched(model.ground, vector(ball['position']), model.ball.radius, ZERO)
-    ball['support'] = part
-    put(ball['normal'], normal)
+@entry
+def play_all(model, ball, velocities, spins, log):
+    """Play shots one after the other, each from the state in `ball`. Returns the balls at the end.
+
+    `ball` is an array of one, `velocities` and `spins` are (n, 3); `log` is scratch.
+    """
+    n = len(velocities)
+    ends = np.empty(n, ball.dtype)
+    for i in range(n):
+        ends[i] = ball[0]
+        one = ends[i:i + 1]
+        put(one[0]['velocity'], vector(velocities[i]))
+        put(one[0]['spin'], vector(spins[i]))
+        tee_off(one[0], 0.0)
+        one[0]['shot'] = i + 1
+        while one[0]['playing']:
+            log.count[0] = 0
+            advance(model, one, LONGEST_SHOT + 1.0, log)
+    return ends
+
+
+@entry
+def tee_off(ball, now):
+    """Begin a shot with the ball's velocity and spin at `now`. Writes what is kept of a shot."""
+    ball['playing'] = 1
+    ball['struck'] = now
+    ball['end'] = now
+    ball['ending'] = LAUNCH
+    ball['highest'] = ball['position'][2]
+    put(ball['struck_at'], vector(ball['position']))
+    put(ball['launch'], vector(ball['velocity']))
+    put(ball['launch_spin'], vector(ball['spin']))
+    ball['flew'] = 0
+    ball['landed'] = 0
+    ball['bounces'] = 0
+    ball['over_time'] = 0

@@ -21,9 +21,17 @@ LONGEST = 10.0  # s of one piece
 
 
 @kernel
-def material_under(model, ball):
+def stand_on(land, ball, part, normal):
+    """Let the ball stand on `part`, or on nothing (NO_PART). Writes support, material, normal."""
+    ball['support'] = part
+    ball['material'] = surface.material_of(land.ground, part)
+    put(ball['normal'], normal)
+
+
+@kernel
+def material_under(land, ball):
     """Row of the material that the ball touches."""
-    return model.materials[surface.material_of(model.ground, ball['support'])]
+    return land.materials[ball['material']]
 
 
 @kernel
@@ -39,20 +47,20 @@ def brake(material, press):
 
 
 @kernel
-def settle(model, ball, now):
+def settle(land, ball, now):
     """Decide whether a ball in contact slides, rolls, pivots or rests. Writes phase and motion.
 
     A ball that rolls goes on rolling while its contact grips; any other must lose its slip first.
     """
     normal = vector(ball['normal'])
-    material = material_under(model, ball)
-    press, downhill = surface.slope(pull(model.effects, vector(ball['position'])), normal)
+    material = material_under(land, ball)
+    press, downhill = surface.slope(pull(land.effects, vector(ball['position'])), normal)
     v = along(vector(ball['velocity']), -dot(vector(ball['velocity']), normal), normal)
-    k = model.ball.inertia
+    k = land.ball.inertia
     turning = dot(vector(ball['spin']), normal)
     grips = k / (1.0 + k) * length(downhill) <= material['static_friction'] * press
     put(ball['velocity'], v)
-    sliding = slip(v, vector(ball['spin']), normal, model.ball.radius)
+    sliding = slip(v, vector(ball['spin']), normal, land.ball.radius)
     if not grips or ball['phase'] != ROLL and length(sliding) > STILL:
         ball['phase'] = SLIDE
         return
@@ -62,30 +70,30 @@ def settle(model, ball, now):
     if length(v) <= STILL and holds and not in_tail(ball, now):
         v = ZERO
         put(ball['velocity'], v)
-        if material['pivot_friction'] == 0.0 or abs(turning) * model.ball.radius <= STILL:
+        if material['pivot_friction'] == 0.0 or abs(turning) * land.ball.radius <= STILL:
             ball['phase'] = REST
-    put(ball['spin'], along(scale(1.0 / model.ball.radius, cross(normal, v)), turning, normal))
+    put(ball['spin'], along(scale(1.0 / land.ball.radius, cross(normal, v)), turning, normal))
 
 
 @kernel
-def flat_piece(model, ball, now):
+def flat_piece(land, ball, now):
     """Lay the next piece of sliding or rolling on a plane, up to a stop or as far as it is exact."""
     normal = vector(ball['normal'])
-    material = material_under(model, ball)
-    press, downhill = surface.slope(pull(model.effects, vector(ball['position'])), normal)
+    material = material_under(land, ball)
+    press, downhill = surface.slope(pull(land.effects, vector(ball['position'])), normal)
     tail = in_tail(ball, now)
     load = press * ball['tail_press'] if tail else press
-    k = model.ball.inertia
+    k = land.ball.inertia
     v = vector(ball['velocity'])
     drift = scale(1.0 / (1.0 + k), downhill)
     if ball['phase'] == SLIDE:
-        u = slip(v, vector(ball['spin']), normal, model.ball.radius)
+        u = slip(v, vector(ball['spin']), normal, land.ball.radius)
         motion = braked.braked(u, downhill, (1.0 + 1.0 / k) * material['dynamic_friction'] * load, normal)
         coast = (along(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:
         motion = braked.braked(v, drift, 0.0 if tail else brake(material, press), normal)
         coast = (ZERO, ZERO, 1.0)
-    unwinding = material['pivot_friction'] * load / (k * model.ball.radius * model.ball.radius)
+    unwinding = material['pivot_friction'] * load / (k * land.ball.radius * land.ball.radius)
     turning = dot(vector(ball['spin']), normal)
     horizon = LONGEST
     if unwinding > 0.0 and turning != 0.0:
@@ -94,9 +102,9 @@ def flat_piece(model, ball, now):
         horizon = min(horizon, ball['tail_end'] - now)
     end = reach(motion, horizon)
     while True:
-        lay_glide(model, ball, motion, coast, end, turning, unwinding)
+        lay_glide(land, ball, motion, coast, end, turning, unwinding)
         middle = braked.half_way(motion, end)
-        if off_path(ball, motion, coast, middle) <= model.limits.path:
+        if off_path(ball, motion, coast, middle) <= land.limits.path:
             break
         end = middle
     ball['ending'] = STEP
@@ -130,10 +138,10 @@ def off_path(ball, motion, coast, q):
 
 
 @kernel
-def lay_glide(model, ball, motion, coast, q, turning, unwinding):
+def lay_glide(land, ball, motion, coast, q, turning, unwinding):
     """Lay the piece of a glide that ends at the parameter `q`. Writes the ball's curve."""
     normal = vector(ball['normal'])
-    r = model.ball.radius
+    r = land.ball.radius
     time, way, v1, u1 = glided(motion, coast, q)
     u0 = braked.after(motion, 0.0)[1]
     v0 = vector(ball['velocity'])
@@ -158,19 +166,19 @@ def lay_glide(model, ball, motion, coast, q, turning, unwinding):
 
 
 @kernel
-def bent_rates(model, ball, place, velocity, spin):
+def bent_rates(land, ball, place, velocity, spin):
     """Acceleration, rate of spin and press of a ball that follows ground which is not flat.
 
     With n' the rate of the normal: staying on the surface demands v' n = -v n', so the ground
     presses with -(g n + v n') per mass. Grip also turns spin about the normal, w_n, into motion:
     (1 + k) v'_t = g_t + k r w_n (n x n').
     """
-    r = model.ball.radius
-    k = model.ball.inertia
-    _, normal = surface.nearest(model.ground, ball['support'], place)
-    turn = normal_rate(model, ball, place, velocity)
-    press, downhill = surface.slope(pull(model.effects, place), normal)
-    material = material_under(model, ball)
+    r = land.ball.radius
+    k = land.ball.inertia
+    _, normal = surface.nearest(land.ground, ball['support'], place)
+    turn = normal_rate(land, ball, place, velocity)
+    press, downhill = surface.slope(pull(land.effects, place), normal)
+    material = material_under(land, ball)
     press -= dot(velocity, turn)
     about = dot(spin, normal)
     free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
@@ -187,37 +195,37 @@ def bent_rates(model, ball, place, velocity, spin):
 
 
 @kernel
-def normal_rate(model, ball, place, velocity):
+def normal_rate(land, ball, place, velocity):
     """Rate of change of the normal under a ball that moves at `velocity`."""
     speed = length(velocity)
     if speed == 0.0:
         return ZERO
-    dt = 1e-4 * model.ball.radius / speed
-    _, before = surface.nearest(model.ground, ball['support'], along(place, -dt, velocity))
-    _, behind = surface.nearest(model.ground, ball['support'], along(place, dt, velocity))
+    dt = 1e-4 * land.ball.radius / speed
+    _, before = surface.nearest(land.ground, ball['support'], along(place, -dt, velocity))
+    _, behind = surface.nearest(land.ground, ball['support'], along(place, dt, velocity))
     return scale(0.5 / dt, sub(behind, before))
 
 
 @kernel
-def bent_piece(model, ball):
+def bent_piece(land, ball):
     """Lay a short piece around an edge by the midpoint rule; lift off where the press is gone."""
     x0 = vector(ball['position'])
     v0 = vector(ball['velocity'])
     w0 = vector(ball['spin'])
-    a0, dw0, press = bent_rates(model, ball, x0, v0, w0)
+    a0, dw0, press = bent_rates(land, ball, x0, v0, w0)
     if press <= 0.0:
         ball['phase'] = FLIGHT
         ball['step'] = 0.0
         return
-    h = min(1e-3, 0.02 * model.ball.radius / max(length(v0), 1e-3))
-    am, dwm, _ = bent_rates(model, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0), along(w0, 0.5 * h, dw0))
+    h = min(1e-3, 0.02 * land.ball.radius / max(length(v0), 1e-3))
+    am, dwm, _ = bent_rates(land, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0), along(w0, 0.5 * h, dw0))
     x1 = along(x0, h, along(v0, 0.5 * h, a0))
-    distance, n1 = surface.nearest(model.ground, ball['support'], x1)
-    x1 = along(x1, model.ball.radius - distance, n1)
+    distance, n1 = surface.nearest(land.ground, ball['support'], x1)
+    x1 = along(x1, land.ball.radius - distance, n1)
     v1 = along(v0, h, am)
     v1 = along(v1, -dot(v1, n1), n1)
     w1 = along(w0, h, dwm)
-    a1, dw1, _ = bent_rates(model, ball, x1, v1, w1)
+    a1, dw1, _ = bent_rates(land, ball, x1, v1, w1)
     ball['span'] = h
     put(ball['origin'], x0)
     put(ball['twist'][3], w1)

@@ -7,9 +7,15 @@ import numpy as np
 from . import effects as effects_
 from . import ground as ground_
 from .course import Ball
-from .effects import Scene
+from .effects import Scene, laws
 from .ground.surface import Ground
 from .material import table
+
+
+class Nothing(NamedTuple):
+    """An effect that does nothing: numba can't go through an empty tuple."""
+
+    amount: float = 0.0
 
 
 class Limits(NamedTuple):
@@ -23,15 +29,22 @@ class Limits(NamedTuple):
     path: float
 
 
-class Model(NamedTuple):
-    """A world for kernels."""
+class Land(NamedTuple):
+    """What counts for a ball in contact. Wind and the like don't, so it never recompiles for them."""
 
     ball: Ball
     effects: tuple
     ground: Ground
     materials: np.ndarray
-    method: NamedTuple
     limits: Limits
+
+
+class Model(NamedTuple):
+    """A world for kernels: the land, and what acts in flight."""
+
+    land: Land
+    effects: tuple
+    method: NamedTuple
 
 
 def material_names(course):
@@ -50,9 +63,17 @@ def build(course, records, preset):
     """
     materials = _materials(course)
     number = {material: i for i, material in enumerate(materials)}
-    return Model(Ball(*map(float, course.ball)), tuple(records),
-                 ground_.build(course.ground, course.bounds, number), table(materials),
-                 preset.method, preset.limits)
+    speaks = laws.gravity.cases.keys() | laws.contact_normal.cases.keys()
+    on_land = tuple(r for r in records if type(r) in speaks)
+    return Model(Land(Ball(*map(float, course.ball)), on_land or (Nothing(),), ground(course),
+                      table(_materials(course)), preset.limits),
+                 tuple(records) or (Nothing(),), preset.method)
+
+
+def ground(course):
+    """`Ground` of a course for kernels."""
+    number = {material: i for i, material in enumerate(_materials(course))}
+    return ground_.build(course.ground, course.bounds, number)
 
 
 def choose(names, course, balls, wind):

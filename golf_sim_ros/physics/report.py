@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a world reports: collisions, and a result for every shot."""
-from math import atan2, cos, hypot, isfinite, sin
+from math import hypot, isfinite
 from typing import NamedTuple, Optional
+
+import numpy as np
 
 from .state import Phase
 
@@ -61,6 +63,14 @@ class Result(NamedTuple):
 
 
 STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds'}
+MOVING = 'aborted'  # the status of a ball that is still on its way
+OVER_TIME = 'time_limit'
+
+SUMMARY = np.dtype([
+    ('status', 'U13'), ('carry', 'f8'), ('carry_side', 'f8'), ('total', 'f8'), ('side', 'f8'),
+    ('apex', 'f8'), ('flight_time', 'f8'), ('duration', 'f8'), ('to_hole', 'f8'), ('lie', 'U32'),
+    ('landing_speed', 'f8'), ('landing_angle', 'f8'), ('bounces', 'i8'), ('position', 'f8', 3),
+    ('velocity', 'f8', 3), ('spin', 'f8', 3)])
 
 
 def three(row):
@@ -75,29 +85,48 @@ def collision(event, time, ball, material):
     return Collision(time, ball, 'bounce', material, *(three(event[name]) for name in names))
 
 
-def result(ball, name, status, time, end, hole, lie):
-    """`Result` of the shot of a `ball` record that ended at `end` on its own clock."""
-    flew = bool(ball['flew'] and ball['landed'])
-    struck_at, landed_at, position = (three(ball[n]) for n in ('struck_at', 'landed_at', 'position'))
-    launch, landing = three(ball['launch']), three(ball['landing_velocity'])
-    carry, carry_side = way(struck_at, landed_at, launch) if flew else (0.0, 0.0)
-    total, side = way(struck_at, position, launch)
-    return Result(
-        int(ball['shot']), name, status, carry, carry_side, total, side,
-        float(ball['highest']) - struck_at[2] if ball['flew'] else 0.0,
-        float(ball['landing'] - ball['struck']) if flew else 0.0,
-        float(end - ball['struck']),
-        None if hole is None else hypot(hole[0] - position[0], hole[1] - position[1]), lie,
-        hypot(*landing) if flew else 0.0,
-        atan2(-landing[2], hypot(landing[0], landing[1])) if flew else 0.0,
-        int(ball['bounces']), time, position, launch, three(ball['launch_spin']))
+def summary(balls, hole, lies):
+    """Figures of ended shots, a structured array with the fields of `Result`.
+
+    `balls` is an array of `BALL` records, `lies` the materials' names. Without a hole ``to_hole``
+    is not a number.
+    """
+    told = np.zeros(len(balls), SUMMARY)
+    flew = (balls['flew'] != 0) & (balls['landed'] != 0)
+    landing = balls['landing_velocity']
+    level = np.hypot(landing[:, 0], landing[:, 1])
+    told['status'] = [OVER_TIME if late else STATUS.get(phase, MOVING)
+                      for late, phase in zip(balls['over_time'], balls['phase'])]
+    told['carry'], told['carry_side'] = np.where(flew, way(balls, 'landed_at'), 0.0)
+    told['total'], told['side'] = way(balls, 'position')
+    told['apex'] = np.where(balls['flew'] != 0, balls['highest'] - balls['struck_at'][:, 2], 0.0)
+    told['flight_time'] = np.where(flew, balls['landing'] - balls['struck'], 0.0)
+    told['duration'] = balls['ended'] - balls['struck']
+    told['lie'] = [lies[m] if s >= 0 else '' for m, s in zip(balls['material'], balls['support'])]
+    told['landing_speed'] = np.where(flew, np.hypot(level, landing[:, 2]), 0.0)
+    told['landing_angle'] = np.where(flew, np.arctan2(-landing[:, 2], level), 0.0)
+    told['bounces'], told['position'] = balls['bounces'], balls['position']
+    told['velocity'], told['spin'] = balls['launch'], balls['launch_spin']
+    x, y = hole or (np.nan, np.nan)
+    told['to_hole'] = np.hypot(x - balls['position'][:, 0], y - balls['position'][:, 1])
+    return told
 
 
-def way(start, end, launch):
-    """Horizontal distance from `start` to `end`, and the end's distance left of the launch plane."""
-    dx, dy = end[0] - start[0], end[1] - start[1]
-    heading = atan2(launch[1], launch[0]) if hypot(launch[0], launch[1]) > 0 else 0.0
-    return hypot(dx, dy), dy * cos(heading) - dx * sin(heading)
+def way(balls, end):
+    """Horizontal distance from the strike to `end`, and how far left of the launch plane that is."""
+    dx = balls[end][:, 0] - balls['struck_at'][:, 0]
+    dy = balls[end][:, 1] - balls['struck_at'][:, 1]
+    heading = np.arctan2(balls['launch'][:, 1], balls['launch'][:, 0])  # 0 if launched upright
+    return np.hypot(dx, dy), dy * np.cos(heading) - dx * np.sin(heading)
+
+
+def result(ball, name, time, hole, lies):
+    """`Result` of the shot of a `ball` record, which ended at the world's `time`."""
+    told = summary(ball[np.newaxis], hole, lies)[0]
+    figures = {key: three(told[key]) if told[key].shape else told[key].item()
+               for key in SUMMARY.names}
+    figures['to_hole'] = None if hole is None else figures['to_hole']
+    return Result(shot=int(ball['shot']), ball=name, time=time, **figures)
 
 
 MOST_SPEED = 150.0  # m/s

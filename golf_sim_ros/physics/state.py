@@ -33,17 +33,17 @@ class Shot(NamedTuple):
     spin: tuple = (0.0, 0.0, 0.0)
 
 
-# What ends a piece of path.
-STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT = range(6)
+# What ends a piece of path. LAUNCH: the ball was put or struck, and its own state counts.
+STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH = range(7)
 
 NO_PART = -1
 
 BALL = np.dtype([
     # as of the last tick
     ('position', 'f8', 3), ('velocity', 'f8', 3), ('spin', 'f8', 3), ('phase', 'i8'),
-    # the contact: part of the ground under it; the normal out of it; until when its bounces,
-    # too small to follow one by one, go on, and how hard they press meanwhile, over m g
-    ('support', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
+    # the contact: part of the ground under it, its material, the normal out of it; until when its
+    # bounces, too small to follow one by one, go on, and how hard they press meanwhile, over m g
+    ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
     # and of the spin; what ends it and on which part of the ground
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
@@ -54,7 +54,7 @@ BALL = np.dtype([
     ('playing', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
     ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'), ('flew', 'i8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
-    ('bounces', 'i8'), ('stalled', 'i8'),
+    ('bounces', 'i8'), ('stalled', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
 ], align=True)
 
 # What happened, for the world to report.

@@ -1,22 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 """A course with balls on it, in time."""
 import re
-from math import isfinite
+from math import inf, isfinite
 from typing import NamedTuple
 
 import numpy as np
 
 from . import model as model_
 from .accuracy import preset
-from .advance import LOG_FULL, advance, interrupt, launch, lay_next, lower, moves, read, stand
+from .advance import LOG_FULL, LONGEST_SHOT, advance, put_down, tee_off
 from .ground import surface
-from .report import STATUS, collision, objection, result, three
-from .state import BALL, BOUNCE, NO_PART, REST, TIME_LIMIT, Phase, new_log
+from .report import collision, objection, result, three
+from .state import BALL, BOUNCE, LAUNCH, NO_PART, REST, STEP, Phase, new_log
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
 FALL = 1e4  # m: how far down ground is looked for
 RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
+MOVING = (Phase.FLIGHT, Phase.SLIDE, Phase.ROLL)
 MOST_WIND = 100.0  # m/s
 
 
@@ -62,7 +63,7 @@ class World:
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
         self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
         self._materials = model_.material_names(course)
-        self._log, self._now, self._shots = new_log(), 0.0, 0
+        self._log, self._events, self._now, self._shots = new_log(), [], 0.0, 0
         self._balls = np.zeros(len(self.names), BALL)
         self._rebuild()
         self._tee_up()
@@ -92,13 +93,21 @@ class World:
     @accuracy.setter
     def accuracy(self, accuracy):
         self._preset, self._accuracy = preset(accuracy), accuracy
-        self._model = self._model._replace(method=self._preset.method, limits=self._preset.limits)
+        self._model = model_.build(self.course, self._records.values(), self._preset)
         self._begin_new_pieces()
 
     @property
     def moving(self):
         """Whether any ball moves."""
-        return any(moves(ball['phase']) for ball in self._balls)
+        return bool(np.isin(self._balls['phase'], MOVING).any())
+
+    def compile(self):
+        """Compile all that a play can need, with wind and without. Takes a while, once a machine."""
+        trial = World(self.course, self.names, self._asked, self._preset)
+        for wind in (ZERO, (1.0, 0.0, 0.0)):
+            trial.set_wind(wind)
+            trial.strike(self.names[0], (1.0, 0.0, 1.0))
+            trial.advance(LONGEST_SHOT)
 
     def __getitem__(self, name):
         """Return the `BallState` of the ball called `name`."""
@@ -114,7 +123,7 @@ class World:
     def _lie(self, ball):
         if ball['phase'] == Phase.FLIGHT or ball['support'] < 0:
             return ''
-        return self._materials[surface.material_of(self._model.ground, ball['support'])]
+        return self._materials[ball['material']]
 
     def place(self, name, position, velocity=None, spin=None):
         """Put a ball down: at (x, y) on the ground there, or exactly at (x, y, z).
@@ -127,48 +136,36 @@ class World:
             Not finite, no ground at (x, y), or inside the ground.
         """
         ball = self._ball(name)
-        before = ball.copy()
-        try:
-            self._put_down(ball, tuple(map(float, position)))
-        except ValueError:
-            self._balls[self.names.index(name)] = before
-            raise
-        ball['velocity'], ball['spin'] = velocity or ZERO, spin or ZERO
-        ball['playing'] = 0
-        self._settle_clock()
-        launch(self._model, ball, self._now)
-
-    def _put_down(self, ball, position):
+        position = tuple(map(float, position))
         if not all(map(isfinite, position)):
             raise ValueError(f'position {position} is not finite')
-        if len(position) == 3:
-            ball['position'] = position
-            stand(self._model, ball)
-            self._refuse_overlap(position)
-            return
-        x, y = position
-        if not lower(self._model, ball, x, y, *self._from_above(x, y)):
-            raise ValueError(f'no ground at x {x:g}, y {y:g}')
+        trial = ball.copy()
+        self._put_down(trial, position)
+        self._settle_clock()
+        self._balls[self.names.index(name)] = trial
+        ball['playing'] = 0
+        self._set_off(ball, velocity or ZERO, spin or ZERO)
 
-    def _from_above(self, x, y):
-        """Height over all ground at x, y, and how far down from there ground may lie."""
-        ground = self._model.ground
-        radius = self._model.ball.radius
-        highest, part = surface.top(ground, x, y)
-        tops = [kind['high'][:, 2].max(initial=-np.inf) for arrays in ground.kinds for kind in arrays
-                if getattr(kind, 'dtype', None) is not None and kind.dtype.names and 'high' in kind.dtype.names]
-        tops = [t for t in tops if np.isfinite(t)] + ([highest] if part >= 0 else [])
-        start = max(tops, default=0.0) + 3 * radius
-        return start, start - max(ground.lowest - 1.0, start - FALL)
+    def _put_down(self, ball, position):
+        depth = 0.0
+        if len(position) == 2:
+            position, depth = self._above(*position)
+        touches, inside = put_down(self._model, ball, position, depth)
+        if depth and not touches:
+            raise ValueError(f'no ground at x {position[0]:g}, y {position[1]:g}')
+        if inside > surface.SAME_HEIGHT:
+            raise ValueError(f'position {position} lies {inside:.3g} m deep in the ground')
 
-    def _refuse_overlap(self, position):
-        ground = self._model.ground
-        for part in range(surface.parts(ground)):
-            distance, _ = surface.nearest(ground, part, position)
-            if (distance < self._model.ball.radius - 1e-6
-                    and surface.touchable(ground, part, position)):
-                raise ValueError(f'position {position} lies {self._model.ball.radius - distance:.3g} m '
-                                 'deep in the ground')
+    def _above(self, x, y):
+        """Place over all ground at x, y, and how far down from there ground may lie."""
+        ground, radius = self._model.land.ground, self._model.land.ball.radius
+        highest = max(surface.top(ground, x, y)[0], ground.highest) + 3 * radius
+        return (x, y, highest), min(highest - ground.lowest + 3 * radius, FALL)
+
+    def _set_off(self, ball, velocity, spin):
+        ball['velocity'], ball['spin'] = velocity, spin
+        ball['end'], ball['ending'] = self._now, LAUNCH
+        self._let_happen(self._now)
 
     def strike(self, name, velocity, spin=ZERO):
         """Strike a resting ball: launch `velocity` [m/s] and `spin` [rad/s].
@@ -187,12 +184,9 @@ class World:
             raise Rejected(reason)
         self._settle_clock()
         self._shots += 1
-        ball['velocity'], ball['spin'], ball['launch'], ball['launch_spin'] = velocity, spin, velocity, spin
-        ball['struck_at'], ball['highest'] = ball['position'], ball['position'][2]
-        ball['playing'], ball['shot'], ball['struck'] = 1, self._shots, self._now
-        for counter in ('flew', 'landed', 'landing', 'bounces', 'landed_at', 'landing_velocity'):
-            ball[counter] = 0
-        launch(self._model, ball, self._now)
+        ball['shot'], ball['velocity'], ball['spin'] = self._shots, velocity, spin
+        tee_off(ball, self._now)
+        self._let_happen(self._now)
 
     def _settle_clock(self):
         """Start the clock of paths anew when nothing moves: same strikes give the same bits."""
@@ -217,7 +211,10 @@ class World:
         self._begin_new_pieces()
 
     def _begin_new_pieces(self):
-        interrupt(self._model, self._balls, self._now)
+        """End the pieces of flight now: the surroundings have changed."""
+        flying = self._balls['phase'] == Phase.FLIGHT
+        self._balls['end'][flying] = self._now
+        self._balls['ending'][flying] = STEP
 
     def advance(self, dt):
         """Let `dt` seconds pass.
@@ -227,17 +224,20 @@ class World:
         list of Collision and Result
             What happened, in order of time.
         """
-        events = []
+        self._let_happen(self._now + dt)
+        self.time += dt
+        self._now += dt
+        events, self._events = self._events, []
+        return events
+
+    def _let_happen(self, until):
+        """Run the engine up to `until` on the paths' clock, and keep what it tells."""
         start = self.time - self._now
-        until = self._now + dt
         while True:
             status = advance(self._model, self._balls, until, self._log)
-            events += self._told(start)
+            self._events += self._told(start)
             if status != LOG_FULL:
                 break
-        self._now = until
-        self.time += dt
-        return events
 
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
@@ -248,24 +248,16 @@ class World:
             if event['kind'] == BOUNCE:
                 events.append(collision(event, time, name, self._materials[event['material']]))
             else:
-                events.append(self._ended(ball, name, time, float(event['time']), event['material']))
+                events.append(result(ball, name, time, self.course.hole, self._materials))
+                if ball['phase'] == Phase.OUT:
+                    self._drop(ball)
         self._log.count[0] = 0
         return events
 
-    def _ended(self, ball, name, time, end, ending):
-        status = 'time_limit' if ending == TIME_LIMIT else STATUS[Phase(int(ball['phase']))]
-        told = result(ball, name, status, time, end, self.course.hole, self._lie(ball))
-        if ball['phase'] == Phase.OUT:
-            self._drop(ball)
-        return told
-
     def _drop(self, ball):
         """Put a lost ball back where it was struck."""
-        ball['position'] = ball['struck_at']
-        ball['velocity'], ball['spin'] = ZERO, ZERO
-        ball['phase'] = REST
-        stand(self._model, ball)
-        lay_next(self._model, ball, self._now)
+        put_down(self._model, ball, three(ball['struck_at']), 0.0)
+        ball['phase'], ball['end'] = REST, inf
 
     def reset(self):
         """Put all balls back to the start.
@@ -278,9 +270,8 @@ class World:
         aborted = []
         for ball, name in zip(self._balls, self.names):
             if ball['playing']:
-                read(ball, self._now)
-                aborted.append(result(ball, name, 'aborted', self.time, self._now, self.course.hole,
-                                      self._lie(ball)))
+                ball['ended'] = self._now
+                aborted.append(result(ball, name, self.time, self.course.hole, self._materials))
         self._balls['phase'] = REST
         self._balls['playing'] = 0
         self._balls['support'] = NO_PART

@@ -2,8 +2,8 @@
 """Ground: a file that has ``SHAPES`` and ``build`` is a kind of ground, found by itself.
 
 ``SHAPES`` are the record types that a course may hold, ``build(shapes, material_number)`` turns
-those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape. Every
-course gets every kind, empty ones too, so that a new course compiles nothing.
+those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape and
+``heights(shape)`` its lowest and highest ground. Every course gets every kind, empty ones too, so that a new course compiles nothing.
 """
 import importlib
 import pkgutil
@@ -34,9 +34,11 @@ def build(shapes, bounds, material_number):
     kinds = tuple(kind.build([s for s in shapes if isinstance(s, kind.SHAPES)], material_number)
                   for kind in KINDS)
     outlines = [o for kind in KINDS for s in shapes if isinstance(s, kind.SHAPES) for o in kind.plan(s)]
-    lowest = min([kind.lowest(s) for kind in KINDS for s in shapes if isinstance(s, kind.SHAPES)],
-                 default=0.0)
-    return Ground(kinds, _borders(outlines, [bounds] if bounds else []), polygons([bounds] if bounds else []), lowest)
+    heights = [kind.heights(s) for kind in KINDS for s in shapes if isinstance(s, kind.SHAPES)]
+    return Ground(kinds, _borders(outlines, [bounds] if bounds else []),
+                  polygons([bounds] if bounds else []),
+                  float(min((low for low, _ in heights), default=0.0)),
+                  float(max((high for _, high in heights), default=0.0)))
 
 
 def _borders(outlines, bounds):

@@ -254,13 +254,13 @@ def plan(shape):
     return outlines
 
 
-def lowest(shape):
-    """Height below which `shape` has no ground; a plane has ground all the way down."""
+def heights(shape):
+    """Least and greatest height of a patch; a plane has ground all the way down, and no top."""
     if isinstance(shape, Plane):
-        return -inf
+        return -inf, -inf
     _, a, b = frame(shape.normal, shape.heading)
     reach = 0.5 * shape.length * abs(a[2]) + 0.5 * shape.width * abs(b[2])
-    return shape.center[2] - reach
+    return shape.center[2] - reach, shape.center[2] + reach
 
 
 SHAPES = (Plane, Patch)

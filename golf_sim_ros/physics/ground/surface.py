@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel, literal_unroll
+from .._compile import entry, kernel, literal_unroll
 from ..state import NO_PART
 from ..vector import along, dot
 from . import laws
@@ -25,13 +25,15 @@ class Ground(NamedTuple):
     """Everything that a ball can touch.
 
     ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
-    surface may begin; ``bounds`` holds no polygon or one; below ``lowest`` there is no ground.
+    surface may begin; ``bounds`` holds no polygon or one; all ground but tilted planes lies between
+    the heights ``lowest`` and ``highest``.
     """
 
     kinds: tuple
     borders: np.ndarray
     bounds: Polygons
     lowest: float
+    highest: float
 
 
 @kernel
@@ -104,7 +106,7 @@ def in_plane(ground, part, point, normal):
     return result
 
 
-@kernel
+@entry
 def material_of(ground, part):
     """Number of the material of `part`."""
     result = 0
@@ -116,7 +118,7 @@ def material_of(ground, part):
     return result
 
 
-@kernel
+@entry
 def top(ground, x, y):
     """Height of the highest surface at `x`, `y`, and its part; NO_GROUND, NO_PART without one."""
     best = NO_GROUND
@@ -171,6 +173,20 @@ def touched(ground, point, radius, ahead):
                 best_flat = flat
                 best_normal = normal
     return best, best_normal
+
+
+@kernel
+def depth(ground, point, radius):
+    """How deep [m] a ball at `point` lies in the ground; 0 where it is clear."""
+    deepest = 0.0
+    low = along(point, -1.0, (radius, radius, radius))
+    high = along(point, 1.0, (radius, radius, radius))
+    for part in range(parts(ground)):
+        if not out_of_reach(ground, part, low, high):
+            distance, _ = nearest(ground, part, point)
+            if radius - distance > deepest and touchable(ground, part, point):
+                deepest = radius - distance
+    return deepest
 
 
 @kernel

@@ -54,7 +54,7 @@ def next_step(method, h, error):
 def stage(model, ball, i, state):
     """Write stage `i`: rates of `state`, the position, velocity and spin in one tuple."""
     x, y, z, u, v, w, p, q, r = state
-    force, torque = flight_rates(model.effects, model.ground, (x, y, z), (u, v, w), (p, q, r))
+    force, torque = flight_rates(model.effects, model.land.ground, (x, y, z), (u, v, w), (p, q, r))
     rates = ball['stages'][i]
     put(rates[0:3], (u, v, w))
     put(rates[3:6], force)
