@@ -537,14 +537,14 @@ def test_golf_without_friends_slopes_gently_and_has_sand_in_its_bunkers(friends)
     assert max(steep['fairway']) < 0.04 and len(steep['fairway']) >= 5
     assert 0.009 < min(steep['green']) and max(steep['green']) < 0.025 and len(steep['green']) >= 4
     assert max(steep['sand']) == max(steep['tee']) == 0 and len(steep['sand']) == 3
-    x, y = np.meshgrid(np.arange(236, 360, 0.5), np.arange(-24, 40, 0.5))
+    x, y = np.meshgrid(np.arange(236, 360, 1.3), np.arange(-24, 40, 0.9))
     sand = in_sand(friends, x, y)
     found = [physics.ground_height(friends, *place)[1] == 'sand' for place in zip(x[sand], y[sand])]
-    assert sum(found) == len(found) > 500
+    assert sum(found) == len(found) > 100
 
 
 def test_the_physics_finds_the_same_heights_on_golf_without_friends(friends):
-    places = np.random.default_rng(7).uniform((-10, -40), (380, 50), (500, 2))
+    places = np.random.default_rng(7).uniform((-10, -40), (380, 50), (200, 2))
     expected = heights(friends, *places.T)
     for (x, y), z in zip(places, expected):
         assert physics.ground_height(friends, x, y)[0] == pytest.approx(z, abs=1e-9)
@@ -553,6 +553,6 @@ def test_the_physics_finds_the_same_heights_on_golf_without_friends(friends):
 def test_the_physics_finds_ground_on_every_line_where_something_ends(friends):
     for polygon in outlines(friends):
         for a, b in zip(np.array(polygon), np.roll(polygon, -1, axis=0)):
-            for part in np.linspace(0, 1, 17):
+            for part in np.linspace(0, 1, 5):
                 place = a + part * (b - a)
                 assert physics.ground_height(friends, *place) is not None, place
