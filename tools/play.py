@@ -16,6 +16,7 @@ from golf_sim_ros.tools.clubs import CLUBS
 from running import BIN, Failed, nodes, Spectator
 
 GRAVITY = 9.80665       # m/s2
+LONGEST = 360.0         # s: a shot lasts 300 s at most
 BEYOND = 0.3            # m: a putt that dies at the hole falls short of it half of the time
 
 
@@ -89,7 +90,10 @@ def hit(title, arguments):
     """Hit one shot at the hole."""
     command = ['shoot', *arguments, '--aim', 'hole']
     print(f'\n{title.capitalize()}: {" ".join(command)}', flush=True)
-    code = subprocess.call([BIN / command[0], *command[1:]])
+    try:
+        code = subprocess.call([BIN / command[0], *command[1:]], timeout=LONGEST)
+    except subprocess.TimeoutExpired:
+        raise Failed(f'the {title} had no result after {LONGEST:g} s') from None
     if code != 0:
         raise Failed(f'the {title} was not played, exit code {code}')
 
