@@ -12,11 +12,11 @@ from std_srvs.srv import SetBool, Trigger
 
 from .broadcast import Broadcast
 from .course import load_course
+from .game import Game
 from .messages import triple
 from .parameters import checked, declared
 from .physics import World
 from .physics.world import checked_wind
-from .play import Play
 from .refusals import Refusals
 from .spinning import run
 
@@ -49,7 +49,7 @@ class SimNode(Node):
         self.compile()
         self.frame, self.refusals = given.frame_id, Refusals(self.get_logger())
         broadcast = Broadcast(self, self.world, given.frame_id, self.on_viewer, self.on_follower)
-        self.play = Play(self.world, broadcast, self.refusals, self.get_logger(), given.rate,
+        self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given.rate,
                          given.publish_rate)
         self.subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -91,23 +91,23 @@ class SimNode(Node):
 
     def on_shot(self, name, message):
         """Keep a strike for the next step."""
-        self.store(partial(self.play.strike, name, triple(message.linear), triple(message.angular)))
+        self.store(partial(self.game.strike, name, triple(message.linear), triple(message.angular)))
 
     def on_place(self, name, message):
         """Keep a place for the next step."""
         if self.in_frame('place', message):
-            self.store(partial(self.play.place, name, triple(message.point)))
+            self.store(partial(self.game.place, name, triple(message.point)))
 
     def on_wind(self, message):
         """Keep the wind; it is felt from the next step on."""
         if not self.in_frame('wind', message):
             return
         try:
-            self.play.wind = checked_wind(triple(message.vector))
+            self.game.wind = checked_wind(triple(message.vector))
         except ValueError as error:
             self.refusals.warn('wind', str(error))
             return
-        self.play.diagnosis.note_wind()
+        self.game.diagnosis.note_wind()
 
     def in_frame(self, kind, message):
         """Whether `message` is in the course's frame or says nothing about it; if not, it is refused."""
@@ -119,26 +119,26 @@ class SimNode(Node):
 
     def on_viewer(self):
         """Somebody looks at the course: tell it once more."""
-        self.play.course_due = True
+        self.game.course_due = True
         self.wake()
 
     def on_follower(self):
         """Somebody follows a ball: tell where it is."""
-        self.play.all_due = True
+        self.game.all_due = True
         self.wake()
 
     def on_reset(self, request, response):
         """Put all balls back, after what arrived before."""
-        self.play.inputs.append(self.play.reset)
-        self.play.apply()
+        self.game.inputs.append(self.game.reset)
+        self.game.apply()
         self.wake()
         response.success, response.message = True, 'every ball is back at the start'
         return response
 
     def on_pause(self, request, response):
         """Let time stand still from now on, or go on."""
-        self.play.advance()
-        self.play.paused = request.data
+        self.game.advance()
+        self.game.paused = request.data
         self.wake()
         response.success, response.message = True, 'paused' if request.data else 'playing'
         return response
@@ -151,7 +151,7 @@ class SimNode(Node):
 
     def store(self, act):
         """Keep `act`, to be done by the next step."""
-        self.play.inputs.append(act)
+        self.game.inputs.append(act)
         self.wake()
 
     def wake(self):
@@ -161,15 +161,15 @@ class SimNode(Node):
 
     def on_timer(self):
         """One step; at rest the timer sleeps, so that a ball at rest costs next to nothing."""
-        self.play.step()
-        if self.play.asleep:
+        self.game.step()
+        if self.game.asleep:
             self.timer.cancel()
 
     def on_beat(self):
         """Once a second, moving or not: everything, and how the simulation does."""
-        self.play.all_due = True
-        self.play.step()
-        self.play.diagnose()
+        self.game.all_due = True
+        self.game.step()
+        self.game.diagnose()
 
 
 def main(args=None):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The play in time: what arrives is applied between ticks, what happens is told."""
+"""The game in time: what arrives is applied between ticks, what happens is told."""
 from time import perf_counter
 
 from . import account, messages
@@ -14,7 +14,7 @@ REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost 
 SCENE_RATE = 10.0  # play markers a second: they are large, and eyes are slow
 
 
-class Play:
+class Game:
     """A world that goes with the wall clock.
 
     Parameters
