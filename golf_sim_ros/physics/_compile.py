@@ -16,7 +16,9 @@ from pathlib import Path
 try:
     import numba
     from numba import literal_unroll
-    from numba.extending import overload
+    from numba.core.registry import CPUDispatcher
+    from numba.core import types
+    from numba.extending import intrinsic, overload
 except ImportError:
     numba = None
     warnings.warn('numba is not installed: the physics runs in plain Python, some 100 times slower',
@@ -52,17 +54,29 @@ if numba and not os.environ.get('NUMBA_CACHE_DIR'):
     numba.config.CACHE_DIR = _cache_folder()
 
 
+if numba:
+    class _Inner(CPUDispatcher):
+        """A kernel without wrapper: a call from Python would be a call of nothing."""
+
+        def __call__(self, *args):
+            raise TypeError(f'{self.__name__} can only be called by kernels: make it an @entry')
+
+
 OPTIONS = {'cache': True, 'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True}
 
 
 def kernel(function):
     """`function` compiled for every combination of argument types it meets, for other kernels.
 
-    Without the wrapper that calls from Python need, it compiles in half the time.
+    Without the wrapper that calls from Python need, it compiles in half the time; inlined, arrays
+    in its arguments are not counted at every call, which makes a shot 1.6 times as fast.
     """
     if numba is None:
         return function
-    return numba.njit(no_cpython_wrapper=True, **OPTIONS)(function)
+    compiled = numba.njit(no_cpython_wrapper=True, forceinline=True, **OPTIONS)(function)
+    if isinstance(compiled, CPUDispatcher):  # not with NUMBA_DISABLE_JIT
+        compiled.__class__ = _Inner
+    return compiled
 
 
 def entry(function):
@@ -70,6 +84,38 @@ def entry(function):
     if numba is None:
         return function
     return numba.njit(**OPTIONS)(function)
+
+
+def borrowed(record):
+    """`record`, its arrays not counted: for an entry's arguments, which the caller keeps alive.
+
+    Counting references to arrays costs more than all else in a kernel.
+    """
+    return record
+
+
+if numba:
+    @intrinsic
+    def _uncounted(typing, array):
+        def build(context, builder, signature, args):
+            view = context.make_array(array)(context, builder, args[0])
+            view.meminfo = view.meminfo.type(None)
+            view.parent = view.parent.type(None)
+            return view._getvalue()
+        return array(array), build
+
+    @overload(borrowed)
+    def _borrowed(record):
+        if isinstance(record, types.Array):
+            return lambda record: _uncounted(record)
+        if isinstance(record, types.BaseNamedTuple):
+            fields = ', '.join(f'borrowed(record.{name})' for name in record.fields)
+            return eval(f'lambda record: make({fields})',
+                        {'make': record.instance_class, 'borrowed': borrowed})
+        if isinstance(record, types.BaseTuple):
+            items = ''.join(f'borrowed(record[{i}]), ' for i in range(record.count))
+            return eval(f'lambda record: ({items})', {'borrowed': borrowed})
+        return lambda record: record
 
 
 def generic(default):

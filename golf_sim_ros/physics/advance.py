@@ -9,7 +9,7 @@ from math import inf
 
 import numpy as np
 
-from ._compile import entry, kernel
+from ._compile import borrowed, entry, kernel
 from . import path
 from .contact import STILL, bent_piece, flat_piece, settle, stand_on
 from .detect import IN_THE_AIR, ON_EDGE, ON_FLAT, first_border, first_contact
@@ -32,6 +32,9 @@ def advance(model, balls, until, log):
 
     Returns DONE, or LOG_FULL when `log` must be emptied before going on.
     """
+    model = borrowed(model)
+    balls = borrowed(balls)
+    log = borrowed(log)
     while True:
         i = first_due(balls, until)
         if i < 0:

@@ -96,7 +96,7 @@ def flat_piece(land, ball, now):
     unwinding = material['pivot_friction'] * load / (k * land.ball.radius * land.ball.radius)
     turning = dot(vector(ball['spin']), normal)
     horizon = LONGEST
-    if unwinding > 0.0 and turning != 0.0:
+    if unwinding > 0.0 and abs(turning) * land.ball.radius > STILL:
         horizon = min(horizon, abs(turning) / unwinding)
     if tail:
         horizon = min(horizon, ball['tail_end'] - now)

@@ -27,6 +27,7 @@ from .plane import Plane
 from .polygon import Polygons, inside, polygons, sides
 
 SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as equally high
+ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
 
 FACE = np.dtype([
     ('center', 'f8', 3), ('normal', 'f8', 3), ('along', 'f8', 3), ('across', 'f8', 3),
@@ -97,8 +98,7 @@ def _cut_edges(center, n, outline, depth, material):
     for first, second in sides(outline):
         start, end = lifted(first), lifted(second)
         size = np.linalg.norm(end - start)
-        foot = np.where(n == 0.0, 0.0, -n * depth if depth else 0.0)
-        box = np.array([start, end, start + foot, end + foot])
+    XX        box = np.array([start, end, start + foot, end + foot])
         rows.append((start, (end - start) / size, size, n, depth, material, box.min(0), box.max(0)))
     return rows
 
@@ -192,8 +192,8 @@ def _flat_under(kind, part, point):
         return False
     face = kind.faces[part]
     d = sub(point, vector(face['center']))
-    return (abs(dot(d, vector(face['along']))) <= face['half_length'] + 1e-12
-            and abs(dot(d, vector(face['across']))) <= face['half_width'] + 1e-12)
+    return (abs(dot(d, vector(face['along']))) <= face['half_length'] + ROUNDING
+            and abs(dot(d, vector(face['across']))) <= face['half_width'] + ROUNDING)
 
 
 @laws.in_plane.register(Flats)
@@ -237,8 +237,8 @@ def _top(kind, x, y):
 @kernel
 def _covers(flat, face, place):
     d = sub(place, vector(face['center']))
-    return (abs(dot(d, vector(face['along']))) <= face['half_length']
-            and abs(dot(d, vector(face['across']))) <= face['half_width']
+    return (abs(dot(d, vector(face['along']))) <= face['half_length'] + ROUNDING
+            and abs(dot(d, vector(face['across']))) <= face['half_width'] + ROUNDING
             and not in_a_cut(flat, face, place[0], place[1]))
 
 
