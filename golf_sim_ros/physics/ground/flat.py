@@ -98,7 +98,8 @@ def _cut_edges(center, n, outline, depth, material):
     for first, second in sides(outline):
         start, end = lifted(first), lifted(second)
         size = np.linalg.norm(end - start)
-    XX        box = np.array([start, end, start + foot, end + foot])
+        foot = np.array([-depth * c if c and depth else 0.0 for c in n])
+        box = np.array([start, end, start + foot, end + foot])
         rows.append((start, (end - start) / size, size, n, depth, material, box.min(0), box.max(0)))
     return rows
 
