@@ -86,6 +86,13 @@ def entry(function):
     return numba.njit(**OPTIONS)(function)
 
 
+def stamp(key):
+    """Path of the mark that says that `key` has been compiled and kept, or None without numba."""
+    if numba is None or numba.config.DISABLE_JIT or not numba.config.CACHE_DIR:
+        return None
+    return Path(numba.config.CACHE_DIR) / f'{hashlib.sha256(key.encode()).hexdigest()[:16]}.compiled'
+
+
 def borrowed(record):
     """`record`, its arrays not counted: for an entry's arguments, which the caller keeps alive.
 

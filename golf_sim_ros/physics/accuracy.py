@@ -16,7 +16,7 @@ class Preset(NamedTuple):
 ACCURACY = {
     'sketch': Preset(DormandPrince(3e-2), Limits(settle=0.1, path=1e-4)),
     'standard': Preset(DormandPrince(1e-5), Limits(settle=0.01, path=1e-6)),
-    'reference': Preset(DormandPrince(1e-10), Limits(settle=0.001, path=1e-10)),
+    'reference': Preset(DormandPrince(1e-10), Limits(settle=0.0001, path=1e-10)),
 }
 
 

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import model as model_
+from ._compile import stamp
 from .accuracy import preset
 from .advance import LOG_FULL, LONGEST_SHOT, advance, put_down, tee_off
 from .ground import surface
@@ -101,6 +102,12 @@ class World:
         """Whether any ball moves."""
         return bool(np.isin(self._balls['phase'], MOVING).any())
 
+    @property
+    def compiled(self):
+        """Whether all that a play can need has been compiled on this machine."""
+        mark = stamp(self._types())
+        return mark is None or mark.exists()
+
     def compile(self):
         """Compile all that a play can need, with wind and without. Takes a while, once a machine."""
         trial = World(self.course, self.names, self._asked, self._preset)
@@ -108,6 +115,16 @@ class World:
             trial.set_wind(wind)
             trial.strike(self.names[0], (1.0, 0.0, 1.0))
             trial.advance(LONGEST_SHOT)
+        mark = stamp(self._types())
+        if mark:
+            mark.parent.mkdir(parents=True, exist_ok=True)
+            mark.touch()
+
+    def _types(self):
+        """What decides which machine code is needed: the types of a windy world's records."""
+        windy, _ = model_.choose(self._asked, self.course, len(self.names), (1.0, 0.0, 0.0))
+        records = (*windy.values(), self._preset.method, *self._model.land.ground.kinds)
+        return ' '.join(f'{type(r).__module__}.{type(r).__qualname__}' for r in records)
 
     def __getitem__(self, name):
         """Return the `BallState` of the ball called `name`."""
