@@ -18,7 +18,7 @@ from .impact import MANY_STALLS, cross_border, meet
 from .integrators import step
 from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, OUT, REST, ROLL, SHOT_ENDS, SLIDE, SLIP_STOPS,
                     STEP, TIME_LIMIT)
-from .vector import ZERO, along, cross, dot, put, scale, vector
+from .vector import ZERO, along, cross, dot, length, put, scale, vector
 
 LONGEST_SHOT = 300.0  # s
 DONE, LOG_FULL = range(2)
@@ -116,8 +116,8 @@ def stop_slip(model, ball):
 @kernel
 def is_out(model, ball):
     """Whether the ball fell below all ground, or is on the ground outside the bounds."""
-    if ball['position'][2] < model.land.ground.lowest - 10.0 * model.land.ball.radius:
-        return True
+    if not ball['position'][2] >= model.land.ground.lowest - 10.0 * model.land.ball.radius:
+        return True  # not a number, too: whatever went wrong, the shot is over
     on_ground = ball['phase'] != FLIGHT or ball['ending'] == HIT
     return on_ground and not surface.in_bounds(model.land.ground, ball['position'][0], ball['position'][1])
 
@@ -148,6 +148,11 @@ def lay_next(model, ball, now):
         ball['end'] = inf
         return
     on = lay_contact(model, ball, now) if ball['phase'] != FLIGHT else IN_THE_AIR
+    if not moves(ball['phase']):  # it came to rest across a border: an event at once
+        path.stay(ball)
+        ball['end'] = now
+        ball['ending'] = STEP
+        return
     if ball['phase'] == FLIGHT:
         on = IN_THE_AIR
         step(model.method, model, ball)
@@ -174,6 +179,10 @@ def lay_next(model, ball, now):
 @kernel
 def lay_contact(model, ball, now):
     """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
+    if leaves_support(model.land, ball):
+        cross_border(model.land, ball, now)
+        if not moves(ball['phase']) or ball['phase'] == FLIGHT:
+            return IN_THE_AIR
     _, normal = surface.nearest(model.land.ground, ball['support'], vector(ball['position']))
     put(ball['normal'], normal)
     if surface.flat_under(model.land.ground, ball['support'], vector(ball['position'])):
@@ -181,6 +190,20 @@ def lay_contact(model, ball, now):
         return ON_FLAT
     bent_piece(model.land, ball)
     return ON_EDGE
+
+
+@kernel
+def leaves_support(land, ball):
+    """Whether the flat ground under the ball ends right where it is heading."""
+    place = vector(ball['position'])
+    if not surface.flat_under(land.ground, ball['support'], place):
+        return False
+    speed = length(vector(ball['velocity']))
+    if speed == 0.0:
+        return False
+    ahead = along(place, surface.LOOK_AHEAD / speed, vector(ball['velocity']))
+    return not (surface.flat_under(land.ground, ball['support'], ahead)
+                and surface.touchable(land.ground, ball['support'], ahead))
 
 
 @kernel

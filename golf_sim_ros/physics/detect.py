@@ -56,7 +56,8 @@ def leave(ground, part, ball, radius, until):
         place = position(ball, time)
         distance, normal = surface.nearest(ground, part, place)
         if distance - radius < -TOUCH:
-            return 0.0
+            # Where the surface has ended meanwhile, the ball falls past it.
+            return 0.0 if surface.touchable(ground, part, place) else time
         if distance - radius > 10 * TOUCH and dot(normal, velocity(ball, time)) > 0.0:
             return time
         time *= 4.0

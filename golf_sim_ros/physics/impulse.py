@@ -36,7 +36,7 @@ def impulse(bond, velocity, spin, normal, radius):
 
     For two balls `spin` is the sum of both spins: each turns its own surface.
     """
-    strength = -(1.0 + bond.restitution) * bond.mass * dot(velocity, normal)
+    strength = max(-(1.0 + bond.restitution) * bond.mass * dot(velocity, normal), 0.0)
     sliding = slip(velocity, spin, normal, radius)
     grip = (1.0 + bond.tangential) * bond.mass * bond.inertia / (1.0 + bond.inertia)
     needed = grip * length(sliding)

@@ -17,6 +17,7 @@ from .flat import SAME_HEIGHT
 from .polygon import Polygons, inside
 
 NO_GROUND = -1e300
+LOOK_AHEAD = 1e-7  # m: on a border, what a ball is on is decided this far ahead
 
 BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('bounds', 'i8')], align=True)
 
@@ -159,7 +160,7 @@ def touched(ground, point, radius, ahead):
     reach = radius + SAME_HEIGHT
     low = along(point, -1.0, (reach, reach, reach))
     high = along(point, 1.0, (reach, reach, reach))
-    next_point = along(point, 1e-7, ahead)
+    next_point = along(point, LOOK_AHEAD, ahead)
     for part in range(parts(ground)):
         if out_of_reach(ground, part, low, high):
             continue
