@@ -17,6 +17,9 @@ from ..messages import fill
 # A result repeats the strike rounded to 1e-4.
 ROUNDING = 0.6e-4
 
+# A sim rejects a shot in its next step, unless it is paused.
+AT_ONCE = 1.0   # s
+
 # Volatile, so that no earlier shot's result is taken for ours.
 RESULT_QOS = QoSProfile(depth=100)
 MARKERS_QOS = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -45,6 +48,7 @@ class Player(Node):
         self.ball = ball
         self.timeout = timeout
         self.results, self.position, self.markers = [], None, None
+        self.struck_at, self.first_position = time.monotonic(), None
         self._shots = self.create_publisher(Twist, f'{ball}/shot' if ball else 'shot', 10)
         self._results = self.create_subscription(String, 'shot/result', self._take_result, RESULT_QOS)
         self._poses = self.create_subscription(PoseStamped, f'{ball or "ball"}/pose', self._take_pose, 10)
@@ -115,6 +119,8 @@ class Player(Node):
             If there is no sim, or it rejects the shot, aborts it, or goes away.
         """
         self.find_sim()
+        self.results.clear()
+        self.struck_at, self.first_position = time.monotonic(), None
         self._shots.publish(twist(velocity, spin))
         while not self._wait(lambda: self._own_result(velocity, spin), 1.0):
             if not self._results.get_publisher_count():
@@ -143,10 +149,18 @@ class Player(Node):
         return True
 
     def _take_result(self, message):
-        self.results.append(json.loads(message.data))
+        result = json.loads(message.data)
+        if not (result['status'] == 'rejected' and self._is_under_way()):
+            self.results.append(result)
+
+    def _is_under_way(self):
+        """Return whether our shot is played, so that a rejection is that of another just like it."""
+        late = time.monotonic() > self.struck_at + AT_ONCE
+        return late and self.position != self.first_position
 
     def _take_pose(self, message):
         self.position = message.pose.position
+        self.first_position = self.first_position or self.position
 
     def _take_markers(self, message):
         self.markers = message.markers

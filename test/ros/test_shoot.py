@@ -7,6 +7,7 @@ import signal
 import pytest
 from geometry_msgs.msg import PoseStamped, Twist
 from std_msgs.msg import String
+from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
 import yaml
 
@@ -21,11 +22,12 @@ class ScriptedSim(Client):
     def __init__(self, namespace, ball='ball', hole=None, course=True):
         super().__init__(namespace)
         self.ball, self.struck, self.answer = ball, [], lambda number: {}
+        self.place, self.at_tick = (10.0, 20.0), lambda: None
         self.results = self.publisher(String, 'shot/result', LASTING, wait=False)
         self.poses = self.publisher(PoseStamped, f'{ball}/pose', wait=False)
         if course:
             self.show_course(hole)
-        self.node.create_timer(0.05, self.tell_pose)
+        self.node.create_timer(0.05, self.tick)
         for topic in ('shot', f'{ball}/shot'):
             self.node.create_subscription(Twist, topic, self.on_shot, 10)
 
@@ -37,15 +39,18 @@ class ScriptedSim(Client):
         course = self.publisher(MarkerArray, 'course/markers', LATCHED, wait=False)
         course.publish(MarkerArray(markers=markers))
 
-    def tell_pose(self):
+    def tick(self):
         message = PoseStamped()
-        message.pose.position.x, message.pose.position.y = 10.0, 20.0
+        message.pose.position.x, message.pose.position.y = self.place
         self.poses.publish(message)
+        self.at_tick()
 
     def on_shot(self, message):
         linear, angular = message.linear, message.angular
         self.struck.append(((linear.x, linear.y, linear.z), (angular.x, angular.y, angular.z)))
-        self.tell_result(**self.answer(len(self.struck)))
+        answer = self.answer(len(self.struck))
+        if answer is not None:
+            self.tell_result(**answer)
 
     def tell_result(self, **changes):
         velocity, spin = ([round(number, 4) for number in vector] for vector in self.struck[-1])
@@ -136,6 +141,38 @@ def test_the_results_of_other_shots_are_not_taken_for_its_own(shoot, scripted):
     code, output = shoot('pw --namespace /busy --ball ball')
     assert code == 0
     assert 'carry            100.00 yd' in output
+
+
+def test_a_shot_under_way_is_not_ended_by_the_rejection_of_another_just_like_it(shoot, scripted):
+    sim = scripted('/twins')
+    ticks = iter(range(1000000))
+
+    def fly():
+        if not sim.struck:
+            return
+        now = next(ticks)
+        sim.place = (10.0 + now, 20.0)
+        if now == 40:
+            sim.tell_result(status='rejected', reason='the ball is moving', shot=2)
+        if now == 50:
+            sim.tell_result()
+    sim.answer, sim.at_tick = lambda number: None, fly
+    code, output = shoot('pw --namespace /twins')
+    assert code == 0
+    assert 'carry            100.00 yd' in output
+
+
+def test_a_late_rejection_counts_where_the_ball_has_not_moved(shoot, scripted):
+    sim = scripted('/paused')
+    ticks = iter(range(1000000))
+
+    def resume():
+        if sim.struck and next(ticks) == 40:
+            sim.tell_result(status='rejected', reason='the ball is moving')
+    sim.answer, sim.at_tick = lambda number: None, resume
+    code, output = shoot('pw --namespace /paused')
+    assert code == 1
+    assert output.splitlines()[1:] == ['shoot: rejected: the ball is moving']
 
 
 def test_it_exits_with_one_when_the_sim_goes_away_during_the_shot(shoot, scripted):
@@ -254,9 +291,8 @@ def test_the_real_sim_plays_a_shot_and_the_table_is_its_result(shoot, golfer):
     wait_until(lambda: golfer.results, 'the result came')
     result = json.loads(golfer.results[-1].data)
     assert result['status'] == 'at_rest' and result['position'][0] > before[0] + 5.0
-    assert f'carry         {result["carry"]:11.2f} m\n' in output
-    assert f'total         {result["total"]:11.2f} m\n' in output
-    assert f'duration      {result["duration"]:11.2f} s\n' in output
+    for label, unit in (('carry', 'm'), ('total', 'm'), ('duration', 's')):
+        assert f'{label:<15}{result[label]:8.2f} {unit}\n' in output
 
 
 @pytest.mark.parametrize('axis, sign', [(30, -1.0), (-30, 1.0)])
@@ -286,14 +322,16 @@ def test_a_shot_at_the_real_sims_hole_goes_towards_its_marker(shoot, golfer):
     assert velocity == pytest.approx([5 * MPH * cos(direction), 5 * MPH * sin(direction), 0.0], abs=1e-3)
 
 
-def test_a_ball_in_motion_rejects_the_next_shot(start, shoot, golfer):
-    first = start('tools.shoot', 'pw', '--power', '0.5', '--timeout', '60', '--namespace', '/real')
+def test_a_ball_in_motion_rejects_the_next_shot(start, golfer):
     rest = place(golfer.poses[-1])
+    golfer.strike((5.0, 0.0, 40.0))
     wait_until(lambda: place(golfer.poses[-1]) != rest, 'the ball moves')
-    code, output = shoot('pw --namespace /real')
-    assert code == 1
-    assert output.splitlines()[-1].startswith('shoot: rejected: ')
-    assert first.wait() == 0
+    golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=True))   # so that it still does then
+    second = start('tools.shoot', 'pw', '--timeout', '60', '--namespace', '/real')
+    second.wait_for('pw: 102.0 mph')
+    golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=False))
+    assert second.wait() == 1
+    assert second.lines[-1].startswith('shoot: rejected: ')
 
 
 def test_a_shot_too_fast_for_golf_is_rejected_with_the_sims_reason(shoot, golfer):
