@@ -2,6 +2,7 @@
 """The node that plays: shots and wind come in, the play goes out."""
 from functools import partial
 import sys
+from threading import Timer
 from time import perf_counter
 
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped
@@ -23,6 +24,9 @@ from .spinning import run
 COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
 # Asks for the least, so it matches every publisher; only the newest wind counts.
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+PATIENCE = 1.5  # s; a start that compiles nothing is done by then
+WAITING = ('waiting for the physics to be compiled: the first start on a machine does that, for up to '
+           'a minute; later ones find it done')
 EXAMPLE = '{linear: {x: 65.0, z: 14.0}, angular: {y: -280.0}}'
 
 
@@ -45,8 +49,7 @@ class SimNode(Node):
         super().__init__('golf_sim', context=context, namespace=namespace,
                          parameter_overrides=parameter_overrides)
         given = declared(self)
-        self.world = World(load_course(given.course), given.balls, given.effects, given.accuracy)
-        self.compile()
+        self.world = self.new_world(given)
         self.frame, self.refusals = given.frame_id, Refusals(self.get_logger())
         broadcast = Broadcast(self, self.world, given.frame_id, self.on_viewer, self.on_follower)
         self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given.rate,
@@ -57,14 +60,19 @@ class SimNode(Node):
         self.beat = self.create_timer(1.0, self.on_beat, clock=steady)
         self.introduce()
 
-    def compile(self):
-        """Make the machine code before anybody can strike: a shot shall not wait for a compiler."""
-        if not self.world.compiled:
-            self.get_logger().info('waiting for the physics to be compiled for this machine: '
-                                   'once, up to a minute; later starts find it done')
+    def new_world(self, given):
+        """World as `given`, compiled before anybody can strike: no shot shall wait for a compiler."""
         began = perf_counter()
-        self.world.compile()
-        self.get_logger().info(f'physics ready after {perf_counter() - began:.1f} s')
+        notice = Timer(PATIENCE, self.get_logger().info, [WAITING])
+        notice.daemon = True
+        notice.start()
+        try:
+            world = World(load_course(given.course), given.balls, given.effects, given.accuracy)
+            world.compile()
+        finally:
+            notice.cancel()
+        self.get_logger().info(f'physics loaded in {perf_counter() - began:.1f} s')
+        return world
 
     def subscribe(self):
         """Open the ways in: topics, services, live parameters."""

@@ -15,6 +15,7 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
 
+from golf_sim_ros.messages import triple
 from processes import LASTING, LATCHED, parameters, place, seconds, wait_until
 
 CHIP, CHIP_SPIN = (9.0, 0.5, 6.0), (0.0, -100.0, 0.0)
@@ -92,8 +93,9 @@ def test_twist_tells_velocity_and_spin_in_the_courses_frame(golfer):
     wait_until(lambda: twists, 'a twist came')
     golfer.play((9.7, 0.5, 6.0), CHIP_SPIN)
     golfer.heartbeat()
-    flying = [twist.twist for twist in twists if twist.twist.linear.z > 0.5]
-    assert flying and all(8.0 < twist.linear.x <= 9.7 and -101 < twist.angular.y < -90 for twist in flying)
+    first = next(twist.twist for twist in twists if twist.twist.linear.z > 0.5)
+    assert triple(first.linear) == pytest.approx((9.7, 0.5, 6.0), abs=0.5)
+    assert triple(first.angular) == pytest.approx(CHIP_SPIN, abs=1.0)
     assert twists[-1].twist.linear.x == 0.0 and twists[-1].header.frame_id == 'course'
 
 
