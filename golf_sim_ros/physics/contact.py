@@ -218,7 +218,8 @@ def bent_piece(land, ball):
         ball['step'] = 0.0
         return
     h = min(1e-3, 0.02 * land.ball.radius / max(length(v0), 1e-3))
-    am, dwm, _ = bent_rates(land, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0), along(w0, 0.5 * h, dw0))
+    am, dwm, _ = bent_rates(land, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0),
+                            along(w0, 0.5 * h, dw0))
     x1 = along(x0, h, along(v0, 0.5 * h, a0))
     distance, n1 = surface.nearest(land.ground, ball['support'], x1)
     x1 = along(x1, land.ball.radius - distance, n1)

@@ -128,4 +128,3 @@ def cross_border(land, ball, now):
     put(ball['position'], along(vector(ball['position']), land.ball.radius - distance, normal))
     stand_on(land, ball, part, normal)
     settle(land, ball, now)
-

@@ -49,10 +49,11 @@ class Model(NamedTuple):
 
 def material_names(course):
     """Names of the materials of a course, in the order of their numbers."""
-    return tuple(material.name for material in _materials(course))
+    return tuple(material.name for material in materials(course))
 
 
-def _materials(course):
+def materials(course):
+    """Materials of a course, in the order of their numbers."""
     return tuple(dict.fromkeys(shape.material for shape in course.ground))
 
 
@@ -61,18 +62,16 @@ def build(course, records, preset):
 
     Types are cast here, once: a kernel would compile anew for an int in place of a float.
     """
-    materials = _materials(course)
-    number = {material: i for i, material in enumerate(materials)}
     speaks = laws.gravity.cases.keys() | laws.contact_normal.cases.keys()
     on_land = tuple(r for r in records if type(r) in speaks)
     return Model(Land(Ball(*map(float, course.ball)), on_land or (Nothing(),), ground(course),
-                      table(_materials(course)), preset.limits),
+                      table(materials(course)), preset.limits),
                  tuple(records) or (Nothing(),), preset.method)
 
 
 def ground(course):
     """`Ground` of a course for kernels."""
-    number = {material: i for i, material in enumerate(_materials(course))}
+    number = {material: i for i, material in enumerate(materials(course))}
     return ground_.build(course.ground, course.bounds, number)
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shots from strike to rest: one with its path, or many with their figures."""
+from itertools import repeat
 from typing import NamedTuple
 
 import numpy as np
@@ -9,7 +10,7 @@ from .advance import play_all
 from .ground import surface
 from .report import Result, objection, summary
 from .vector import ZERO
-from .world import World
+from .world import World, checked_wind
 
 
 class Play(NamedTuple):
@@ -30,8 +31,9 @@ def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=
     ----------
     course : Course
     shot : Shot
-    wind : (float, float, float)
-        At 10 m over the ground [m/s].
+    wind : (float, float, float), or array_like (n, 4)
+        At 10 m over the ground [m/s]; or rows of a time since the strike [s], the first 0, and the
+        wind from then on: gusts.
     effects : 'auto' or sequence of str
     accuracy : str or Preset
     rate : float
@@ -48,18 +50,43 @@ def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=
     ValueError
         See `World`.
     """
-    world = World(course, effects=effects, accuracy=accuracy, wind=wind)
+    gusts = checked_gusts(wind)
+    world = World(course, effects=effects, accuracy=accuracy, wind=gusts[0, 1:])
     name = world.names[0]
     world.strike(name, shot.velocity, shot.spin)
-    rows, events = [(0.0, *world[name][:3])], []
+    rows, events, tick = [(0.0, *world[name][:3])], [], 0
     while not any(isinstance(event, Result) for event in events):
-        events += world.advance(1.0 / rate)
+        tick += 1
+        events += _blown(world, tick / rate, gusts)
         rows.append((world.time, *world[name][:3]))
     end = next(event for event in events if isinstance(event, Result))
     rows[-1] = (end.time, end.position, ZERO, world[name].spin)
     times, positions, velocities, spins = map(np.array, zip(*rows))
     collisions = tuple(event for event in events if event is not end)
     return Play(end, collisions, times, positions, velocities, spins)
+
+
+def _blown(world, until, gusts):
+    """Let a world go on to the time `until`, through the `gusts` on the way; return what happened."""
+    events = []
+    for time, *wind in gusts[(gusts[:, 0] > world.time) & (gusts[:, 0] <= until)]:
+        events += world.advance(time - world.time)
+        world.set_wind(wind)
+    return events + world.advance(until - world.time)
+
+
+def checked_gusts(wind):
+    """`wind`, three numbers or a table of gusts, as a table: rows of time, x, y, z."""
+    table = np.ascontiguousarray(wind, float)
+    if table.shape == (3,):
+        table = np.array([[0.0, *table]])
+    if table.ndim != 2 or table.shape[1] != 4 or not len(table):
+        raise ValueError(f'wind has the shape {table.shape}: three numbers, or rows of time, x, y, z')
+    if table[0, 0] != 0.0 or not (np.diff(table[:, 0]) > 0.0).all():
+        raise ValueError('the times of the wind must begin with 0 and rise')
+    for row in table:
+        checked_wind(row[1:])
+    return table
 
 
 def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy='standard',
@@ -70,6 +97,8 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     ----------
     velocities, spins : array_like, (n, 3)
         [m/s], [rad/s]
+    wind : (float, float, float), or array_like (m, 4)
+        See `simulate`.
     executor : concurrent.futures.Executor, optional
         Plays `chunks` parts of the shots at once: processes, threads, or other machines.
 
@@ -83,23 +112,32 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     ValueError
         A shape is not (n, 3), or a shot can't be played: the message says which and why.
     """
-    velocities = np.ascontiguousarray(velocities, float)
-    spins = np.ascontiguousarray(spins, float)
+    strikes = checked_strikes(velocities, spins)
+    gusts = checked_gusts(wind)
+    if executor is None:
+        return _played(course, strikes, gusts, effects, accuracy)
+    parts = [part for part in np.array_split(strikes, chunks) if len(part)]
+    return np.concatenate(list(executor.map(
+        _played, repeat(course), parts, repeat(gusts), repeat(effects), repeat(accuracy))))
+
+
+def checked_strikes(velocities, spins):
+    """Velocities and spins side by side, (n, 6); every one can be played."""
+    velocities, spins = np.asarray(velocities, float), np.asarray(spins, float)
     if velocities.ndim != 2 or velocities.shape[1] != 3 or spins.shape != velocities.shape:
         raise ValueError(f'velocities {velocities.shape} and spins {spins.shape} must both be (n, 3)')
     for i, strike in enumerate(zip(velocities, spins)):
-        if objection(*strike):
-            raise ValueError(f'shot {i}: {objection(*strike)}')
-    if executor is None:
-        return _played(course, velocities, spins, wind, effects, accuracy)
-    parts = [(course, *part, wind, effects, accuracy) for part in
-             zip(np.array_split(velocities, chunks), np.array_split(spins, chunks)) if len(part[0])]
-    return np.concatenate(list(executor.map(_played, *zip(*parts))))
+        reason = objection(*strike)
+        if reason:
+            raise ValueError(f'shot {i}: {reason}')
+    return np.ascontiguousarray(np.hstack([velocities, spins]))
 
 
-def _played(course, velocities, spins, wind, effects, accuracy):
-    world = World(course, effects=effects, accuracy=accuracy, wind=wind)
-    ends = play_all(world._model, world._balls, velocities, spins, world._log)
+def _played(course, strikes, gusts, effects, accuracy):
+    # The strongest gust decides whether there is wind at all.
+    strongest = gusts[np.argmax(np.linalg.norm(gusts[:, 1:], axis=1)), 1:]
+    world = World(course, effects=effects, accuracy=accuracy, wind=strongest)
+    ends = play_all(world._model, world._balls, strikes, gusts, world._log)
     return summary(ends, course.hole, world._materials)
 
 

@@ -9,6 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ._compile import kernel
+
 
 class Phase(IntEnum):
     """What a ball is doing."""
@@ -78,3 +80,9 @@ class Log(NamedTuple):
 def new_log(capacity=64):
     """Empty `Log` for up to `capacity` events."""
     return Log(np.zeros(capacity, EVENT), np.zeros(1, np.int64))
+
+
+@kernel
+def moves(phase):
+    """Whether a ball in `phase` moves."""
+    return phase == FLIGHT or phase == SLIDE or phase == ROLL

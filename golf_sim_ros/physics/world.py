@@ -9,9 +9,11 @@ import numpy as np
 from . import model as model_
 from ._compile import stamp
 from .accuracy import preset
-from .advance import LOG_FULL, LONGEST_SHOT, advance, put_down, tee_off
+from .advance import LOG_FULL, advance
 from .ground import surface
+from .piece import LONGEST_SHOT, put_down
 from .report import collision, objection, result, three
+from .shot import tee_off
 from .state import BALL, BOUNCE, LAUNCH, NO_PART, REST, STEP, Phase, new_log
 from .vector import ZERO
 

@@ -97,13 +97,20 @@ def pull(effects, position):
 def flight_rates(effects, ground, position, velocity, spin):
     """Acceleration and rate of change of spin of a flying ball."""
     through_air = sub(velocity, wind_at(effects, ground, position))
-    flow = laws.Flow(through_air, length(through_air), spin, velocity)
+    flow = laws.Flow(through_air, length(through_air), spin, position)
     force = ZERO
     torque = ZERO
     for effect in literal_unroll(effects):
         force = add(force, add(laws.gravity(effect, position), laws.acceleration(effect, flow)))
         torque = add(torque, laws.spin_rate(effect, flow))
     return force, torque
+
+
+@kernel
+def blow(effects, wind):
+    """Let the air move with `wind` [m/s at 10 m] from now on. Writes into the effects' records."""
+    for effect in literal_unroll(effects):
+        laws.take_wind(effect, wind)
 
 
 @kernel

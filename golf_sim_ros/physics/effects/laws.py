@@ -13,14 +13,13 @@ from ..vector import ZERO
 class Flow(NamedTuple):
     """The air as a flying ball meets it.
 
-    ``velocity`` and ``speed`` of the ball through the air [m/s]; ``spin`` [rad/s]; ``still`` is
-    the ball's own velocity over the ground.
+    ``velocity`` and ``speed`` of the ball through the air [m/s]; ``spin`` [rad/s]; ``position``.
     """
 
     velocity: tuple
     speed: float
     spin: tuple
-    still: tuple
+    position: tuple
 
 
 @generic
@@ -51,3 +50,8 @@ def gravity(effect, position):
 def contact_normal(effect, normal, velocity, softness):
     """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
     return normal
+
+
+@generic
+def take_wind(effect, wind):
+    """Let `effect` go on with another `wind` [m/s at 10 m]; of an effect that keeps the wind."""

@@ -3,9 +3,11 @@
 from math import log
 from typing import NamedTuple
 
+import numpy as np
+
 from .._compile import kernel
 from ..ground.surface import ground_height
-from ..vector import scale
+from ..vector import put, scale, vector
 from . import laws
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
@@ -28,12 +30,12 @@ class UniformProfile(NamedTuple):
 
 
 class Wind(NamedTuple):
-    """Wind of `velocity` [m/s] at 10 m; `law` 0 uniform, 1 logarithmic, 2 power.
+    """Wind of `velocity`, an array of 3 [m/s], at 10 m; `law` 0 uniform, 1 logarithmic, 2 power.
 
     The law is a number, not a type, so that a course with another law compiles nothing.
     """
 
-    velocity: tuple
+    velocity: np.ndarray
     law: int
     parameter: float
     weight: float
@@ -54,12 +56,17 @@ def _air_velocity(effect, ground, position):
     from_ground = position[2]
     if effect.law != 0:
         from_ground -= ground_height(ground, position[0], position[1])
-    return scale(share(effect, from_ground), effect.velocity)
+    return scale(share(effect, from_ground), vector(effect.velocity))
+
+
+@laws.take_wind.register(Wind)
+def _take_wind(effect, wind):
+    put(effect.velocity, wind)
 
 
 def blowing(profile, velocity):
     """`Wind` record of a wind `velocity` [m/s] at 10 m with a `profile`."""
-    velocity = tuple(float(v) for v in velocity)
+    velocity = np.array(velocity, float)
     if isinstance(profile, LogProfile):
         return Wind(velocity, 1, float(profile.roughness),
                     1.0 / log(1.0 + REFERENCE_HEIGHT / profile.roughness))

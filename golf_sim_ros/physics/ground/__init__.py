@@ -3,7 +3,8 @@
 
 ``SHAPES`` are the record types that a course may hold, ``build(shapes, material_number)`` turns
 those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape and
-``heights(shape)`` its lowest and highest ground. Every course gets every kind, empty ones too, so that a new course compiles nothing.
+``heights(shape)`` its lowest and highest ground. Every course gets every kind, empty ones too, so
+that a new course compiles nothing.
 """
 import importlib
 import pkgutil

@@ -32,7 +32,8 @@ ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
 FACE = np.dtype([
     ('center', 'f8', 3), ('normal', 'f8', 3), ('along', 'f8', 3), ('across', 'f8', 3),
     ('half_length', 'f8'), ('half_width', 'f8'), ('solid', 'i8'), ('one_sided', 'i8'),
-    ('material', 'i8'), ('first_cut', 'i8'), ('last_cut', 'i8'), ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+    ('material', 'i8'), ('first_cut', 'i8'), ('last_cut', 'i8'),
+    ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
 
 EDGE = np.dtype([
     ('start', 'f8', 3), ('direction', 'f8', 3), ('length', 'f8'), ('normal', 'f8', 3),

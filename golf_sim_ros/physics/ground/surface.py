@@ -19,7 +19,8 @@ from .polygon import Polygons, inside
 NO_GROUND = -1e300
 LOOK_AHEAD = 1e-7  # m: on a border, what a ball is on is decided this far ahead
 
-BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('bounds', 'i8')], align=True)
+BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('bounds', 'i8')],
+                  align=True)
 
 
 class Ground(NamedTuple):

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Laying a ball's next piece of path: how it moves on, and up to where that is safe."""
+from math import inf
+
+from . import path
+from ._compile import entry, kernel
+from .contact import STILL, bent_piece, flat_piece, settle, stand_on
+from .detect import IN_THE_AIR, ON_EDGE, ON_FLAT, first_border, first_contact
+from .ground import surface
+from .impact import MANY_STALLS, cross_border
+from .integrators import step
+from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
+from .vector import ZERO, along, cross, dot, length, put, scale, vector
+
+LONGEST_SHOT = 300.0  # s
+CAUGHT_STEP = 1e-4  # s in which a ball caught between surfaces moves freely
+
+
+@kernel
+def lay_next(model, ball, now):
+    """Lay the ball's next piece, from its state at `now`. Writes piece, begin, end, ending."""
+    ball['begin'] = now
+    if not moves(ball['phase']):
+        path.stay(ball)
+        ball['end'] = inf
+        return
+    on = lay_contact(model, ball, now) if ball['phase'] != FLIGHT else IN_THE_AIR
+    if not moves(ball['phase']):  # it came to rest across a border: an event at once
+        path.stay(ball)
+        ball['end'] = now
+        ball['ending'] = STEP
+        return
+    if ball['phase'] == FLIGHT:
+        on = IN_THE_AIR
+        step(model.method, model, ball)
+    until = ball['span']
+    if ball['stalled'] > MANY_STALLS:
+        until = min(until, CAUGHT_STEP)
+    else:
+        until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
+        if hit:
+            ball['ending'] = HIT
+            ball['target'] = part
+    if on == ON_FLAT:
+        until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
+        if crosses:
+            ball['ending'] = BORDER
+    if until < ball['span'] and ball['ending'] != HIT and ball['ending'] != BORDER:
+        ball['ending'] = STEP
+    ball['end'] = now + until
+    if ball['playing'] and ball['end'] > ball['struck'] + LONGEST_SHOT:
+        ball['end'] = ball['struck'] + LONGEST_SHOT
+        ball['ending'] = TIME_LIMIT
+
+
+@kernel
+def lay_contact(model, ball, now):
+    """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
+    if leaves_support(model.land, ball):
+        cross_border(model.land, ball, now)
+        if not moves(ball['phase']) or ball['phase'] == FLIGHT:
+            return IN_THE_AIR
+    _, normal = surface.nearest(model.land.ground, ball['support'], vector(ball['position']))
+    put(ball['normal'], normal)
+    if surface.flat_under(model.land.ground, ball['support'], vector(ball['position'])):
+        flat_piece(model.land, ball, now)
+        return ON_FLAT
+    bent_piece(model.land, ball)
+    return ON_EDGE
+
+
+@kernel
+def leaves_support(land, ball):
+    """Whether the flat ground under the ball ends right where it is heading."""
+    place = vector(ball['position'])
+    if not surface.flat_under(land.ground, ball['support'], place):
+        return False
+    speed = length(vector(ball['velocity']))
+    if speed == 0.0:
+        return False
+    ahead = along(place, surface.LOOK_AHEAD / speed, vector(ball['velocity']))
+    return not (surface.flat_under(land.ground, ball['support'], ahead)
+                and surface.touchable(land.ground, ball['support'], ahead))
+
+
+@kernel
+def launch(model, ball, now):
+    """Decide how a ball sets off from its state: in the air, or along the ground under it."""
+    ball['step'] = 0.0
+    ball['stalled'] = 0
+    ball['tail_end'] = now
+    ball['phase'] = FLIGHT
+    lift = dot(vector(ball['velocity']), vector(ball['normal']))
+    if ball['support'] >= 0 and abs(lift) <= STILL:
+        ball['phase'] = SLIDE
+        settle(model.land, ball, now)
+
+
+@entry
+def put_down(model, ball, position, depth):
+    """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
+
+    Writes position, support and normal; the ball is at rest. Returns whether it touches anything,
+    and how deep [m] it lies in the ground.
+    """
+    put(ball['position'], position)
+    put(ball['velocity'], ZERO)
+    put(ball['spin'], ZERO)
+    if depth > 0.0:
+        way = (0.0, 0.0, -depth)
+        ball['span'] = 1.0
+        put(ball['origin'], position)
+        path.lay(ball, way, (way, way), (ZERO, ZERO), (ZERO, ZERO))
+        time, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, 1.0, IN_THE_AIR)
+        if hit:
+            put(ball['position'], path.position(ball, time))
+    part, normal = surface.touched(model.land.ground, vector(ball['position']), model.land.ball.radius, ZERO)
+    stand_on(model.land, ball, part, normal)
+    return part >= 0, surface.depth(model.land.ground, vector(ball['position']), model.land.ball.radius)
+
+
+@kernel
+def read(ball, now):
+    """Write the ball's position, velocity and spin at `now`, on its present piece."""
+    if moves(ball['phase']) and now > ball['begin']:
+        time = now - ball['begin']
+        put(ball['position'], path.position(ball, time))
+        put(ball['velocity'], path.velocity(ball, time))
+        put(ball['spin'], path.spin(ball, time))
+
+
+@kernel
+def stop_slip(model, ball):
+    """Give the ball the spin of rolling. Writes spin."""
+    normal = vector(ball['normal'])
+    turning = dot(vector(ball['spin']), normal)
+    rolling = scale(1.0 / model.land.ball.radius, cross(normal, vector(ball['velocity'])))
+    put(ball['spin'], along(rolling, turning, normal))
+    ball['phase'] = ROLL

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is kept of a shot on its way, for its result."""
+from . import path
+from ._compile import entry, kernel
+from .state import FLIGHT, LAUNCH, REST, SHOT_ENDS, moves
+from .vector import ZERO, put, vector
+
+
+@kernel
+def keep_highest(ball):
+    """Keep the greatest height that the ball reaches on its piece of flight. Writes highest."""
+    if ball['phase'] != FLIGHT:
+        return
+    ball['flew'] = 1
+    time = ball['end'] - ball['begin']
+    start = path.position(ball, 0.0)[2]
+    ball['highest'] = max(ball['highest'], max(start, path.position(ball, time)[2]))
+    if path.span_along(ball, 2)[1] <= ball['highest']:
+        return
+    low = 0.0
+    high = time
+    if path.velocity(ball, low)[2] <= 0.0 or path.velocity(ball, high)[2] >= 0.0:
+        return
+    for _ in range(50):
+        middle = 0.5 * (low + high)
+        if path.velocity(ball, middle)[2] > 0.0:
+            low = middle
+        else:
+            high = middle
+    ball['highest'] = max(ball['highest'], path.position(ball, low)[2])
+
+
+@kernel
+def note_landing(ball, now):
+    """Keep where and how a struck ball first touches the ground. Writes landing."""
+    if ball['playing'] and not ball['landed'] and ball['phase'] == FLIGHT:
+        ball['landed'] = 1
+        ball['landing'] = now
+        put(ball['landed_at'], vector(ball['position']))
+        put(ball['landing_velocity'], vector(ball['velocity']))
+
+
+@kernel
+def end_shot(ball, number, now, log):
+    """Log the end of the ball's shot. Writes playing, ended."""
+    ball['ended'] = now
+    if moves(ball['phase']):
+        ball['over_time'] = 1
+        ball['phase'] = REST
+        put(ball['velocity'], ZERO)
+        put(ball['spin'], ZERO)
+    ball['playing'] = 0
+    event = log.events[log.count[0]]
+    log.count[0] += 1
+    event['time'] = now
+    event['ball'] = number
+    event['kind'] = SHOT_ENDS
+
+
+@entry
+def tee_off(ball, now):
+    """Begin a shot with the ball's velocity and spin at `now`. Writes what is kept of a shot."""
+    ball['playing'] = 1
+    ball['struck'] = now
+    ball['end'] = now
+    ball['ending'] = LAUNCH
+    ball['highest'] = ball['position'][2]
+    put(ball['struck_at'], vector(ball['position']))
+    put(ball['launch'], vector(ball['velocity']))
+    put(ball['launch_spin'], vector(ball['spin']))
+    ball['flew'] = 0
+    ball['landed'] = 0
+    ball['bounces'] = 0
+    ball['over_time'] = 0
