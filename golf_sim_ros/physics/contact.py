@@ -196,14 +196,14 @@ def bent_rates(land, ball, place, velocity, spin):
 
 @kernel
 def normal_rate(land, ball, place, velocity):
-    """Rate of change of the normal under a ball that moves at `velocity`."""
+    """Rate of change of the normal under a ball that moves on at `velocity`."""
     speed = length(velocity)
     if speed == 0.0:
         return ZERO
-    dt = 1e-4 * land.ball.radius / speed
-    _, before = surface.nearest(land.ground, ball['support'], along(place, -dt, velocity))
-    _, behind = surface.nearest(land.ground, ball['support'], along(place, dt, velocity))
-    return scale(0.5 / dt, sub(behind, before))
+    dt = 1e-5 * land.ball.radius / speed
+    _, here = surface.nearest(land.ground, ball['support'], place)
+    _, next_one = surface.nearest(land.ground, ball['support'], along(place, dt, velocity))
+    return scale(1.0 / dt, sub(next_one, here))
 
 
 @kernel

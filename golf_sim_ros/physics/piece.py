@@ -56,31 +56,29 @@ def lay_next(model, ball, now):
 @kernel
 def lay_contact(model, ball, now):
     """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
-    if leaves_support(model.land, ball):
-        cross_border(model.land, ball, now)
+    land = model.land
+    if surface.flat_under(land.ground, ball['support'], vector(ball['position'])) and not goes_on(land, ball):
+        cross_border(land, ball, now)
         if not moves(ball['phase']) or ball['phase'] == FLIGHT:
             return IN_THE_AIR
-    _, normal = surface.nearest(model.land.ground, ball['support'], vector(ball['position']))
+    _, normal = surface.nearest(land.ground, ball['support'], vector(ball['position']))
     put(ball['normal'], normal)
-    if surface.flat_under(model.land.ground, ball['support'], vector(ball['position'])):
-        flat_piece(model.land, ball, now)
+    if goes_on(land, ball):
+        flat_piece(land, ball, now)
         return ON_FLAT
-    bent_piece(model.land, ball)
+    bent_piece(land, ball)
     return ON_EDGE
 
 
 @kernel
-def leaves_support(land, ball):
-    """Whether the flat ground under the ball ends right where it is heading."""
-    place = vector(ball['position'])
-    if not surface.flat_under(land.ground, ball['support'], place):
-        return False
+def goes_on(land, ball):
+    """Whether flat ground goes on under the ball right where it is heading."""
     speed = length(vector(ball['velocity']))
-    if speed == 0.0:
-        return False
-    ahead = along(place, surface.LOOK_AHEAD / speed, vector(ball['velocity']))
-    return not (surface.flat_under(land.ground, ball['support'], ahead)
-                and surface.touchable(land.ground, ball['support'], ahead))
+    ahead = vector(ball['position'])
+    if speed > 0.0:
+        ahead = along(ahead, surface.LOOK_AHEAD / speed, vector(ball['velocity']))
+    return (surface.flat_under(land.ground, ball['support'], ahead)
+            and surface.touchable(land.ground, ball['support'], ahead))
 
 
 @kernel
