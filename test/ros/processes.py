@@ -17,7 +17,8 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-DEADLINE = 90.0  # s: a first start compiles
+DEADLINE = 300.0  # s: a first start compiles, on a machine that may have other things to do
+READY = 'ready; to strike'  # in the log of a sim that listens
 LASTING = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -165,8 +166,10 @@ class Golfer(Client):
         wait_until(lambda: len(self.poses) >= seen + 2, 'the sim told where the ball is')
 
     def reset(self):
-        """All balls back to the start."""
+        """All balls back to the start; `poses` ends with one from there."""
         assert self.call(Trigger, 'golf_sim/reset', Trigger.Request()).success
+        seen = len(self.poses)
+        wait_until(lambda: len(self.poses) > seen, 'the sim told where the ball is')
 
 
 def seconds(stamp):

@@ -6,7 +6,7 @@ from math import inf, nan
 from geometry_msgs.msg import PointStamped, Vector3Stamped
 import pytest
 
-from processes import parameters, place, wait_until
+from processes import Golfer, parameters, place, READY, wait_until
 
 GOOD, GOOD_SPIN = (9.0, 0.7, 6.0), (3.0, -120.0, 11.0)
 BAD_SHOTS = {
@@ -35,13 +35,9 @@ BAD_PLACES = {
 @pytest.fixture(scope='module')
 def sim(start):
     """The sim that gets bad input."""
-    return start('sim_node', *parameters('/bad'))
-
-
-@pytest.fixture(scope='module')
-def untroubled(start):
-    """A sim that never gets any."""
-    return start('sim_node', *parameters('/good'))
+    process = start('sim_node', *parameters('/bad'))
+    process.wait_for(READY)
+    return process
 
 
 @pytest.fixture
@@ -49,16 +45,18 @@ def golfer(sim, make_golfer):
     """A golfer at the tee of the sim that gets bad input."""
     golfer = make_golfer('/bad')
     golfer.reset()
-    golfer.heartbeat()
     return golfer
 
 
-@pytest.fixture
-def expected(untroubled, make_golfer):
-    """What the good shot gives where nothing bad ever came."""
-    golfer = make_golfer('/good')
-    golfer.reset()
-    return bits_of(golfer)
+@pytest.fixture(scope='module')
+def expected(start):
+    """What the good shot gives in a sim to which nothing bad ever came."""
+    start('sim_node', *parameters('/good')).wait_for(READY)
+    golfer = Golfer('/good')
+    try:
+        return bits_of(golfer)
+    finally:
+        golfer.close()
 
 
 def bits_of(golfer):

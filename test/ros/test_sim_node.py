@@ -16,7 +16,7 @@ from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
 
 from golf_sim_ros.messages import triple
-from processes import LASTING, LATCHED, parameters, place, seconds, wait_until
+from processes import LASTING, LATCHED, parameters, place, READY, seconds, wait_until
 
 CHIP, CHIP_SPIN = (9.0, 0.5, 6.0), (0.0, -100.0, 0.0)
 PERIOD, TICK = 1 / 50, 1 / 250  # s, by default
@@ -26,7 +26,7 @@ PERIOD, TICK = 1 / 50, 1 / 250  # s, by default
 def sim(start):
     """A sim with default parameters in the root namespace."""
     process = start('sim_node')
-    process.wait_for('ready')
+    process.wait_for(READY)
     return process
 
 
@@ -276,7 +276,7 @@ def test_the_log_tells_the_course_the_effects_a_line_to_paste_and_every_shot(gol
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_the_sim_with_exit_code_0(start, number):
     process = start('sim_node', *parameters('/ending'))
-    process.wait_for('ready')
+    process.wait_for(READY)
     assert process.stop(number) == 0
     assert 'Traceback' not in process.output
 
@@ -284,6 +284,7 @@ def test_a_signal_ends_the_sim_with_exit_code_0(start, number):
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_a_flying_sim_with_exit_code_0(start, make_golfer, number):
     process = start('sim_node', *parameters('/flying'))
+    process.wait_for(READY)
     golfer = make_golfer('/flying')
     golfer.strike((40.0, 0.0, 40.0))
     wait_until(lambda: place(golfer.poses[-1])[2] > 3.0, 'the ball flew')
@@ -302,7 +303,7 @@ def test_a_signal_ends_a_compiling_sim_with_exit_code_0(start, tmp_path, number)
 
 
 def test_two_balls_are_struck_apart_and_fly_at_the_same_time(start, make_golfer):
-    start('sim_node', *parameters('/two', balls="['red', 'blue']"))
+    start('sim_node', *parameters('/two', balls="['red', 'blue']")).wait_for(READY)
     red, blue = make_golfer('/two', 'red'), make_golfer('/two', 'blue')
     assert abs(place(red.poses[-1])[1] - place(blue.poses[-1])[1]) == pytest.approx(0.5)
     red.strike(CHIP)
@@ -315,7 +316,7 @@ def test_two_balls_are_struck_apart_and_fly_at_the_same_time(start, make_golfer)
 
 def test_a_namespace_and_a_remapped_topic_appear_in_the_line_to_paste(start):
     process = start('sim_node', *parameters('/mapped'), '-r', 'shot:=hit')
-    assert '--once /mapped/hit geometry_msgs' in process.wait_for('ready')
+    assert '--once /mapped/hit geometry_msgs' in process.wait_for(READY)
 
 
 def test_two_sims_in_one_process_play_apart(domain, make_golfer):
