@@ -13,7 +13,7 @@ from .effects import blow
 from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
-from .shot import end_shot, keep_highest, note_landing, tee_off
+from .shot import end_shot, keep_highest, tee_off
 from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, OUT, SLIP_STOPS, STEP, TIME_LIMIT, moves)
 from .vector import ZERO, put, vector
 
@@ -66,7 +66,6 @@ def resolve(model, ball, number, log):
     if ending == LAUNCH:
         launch(model, ball, now)
     elif ending == HIT:
-        note_landing(ball, now)
         meet(model.land, ball, number, now, log)
     elif ending == BORDER:
         cross_border(model.land, ball, now)

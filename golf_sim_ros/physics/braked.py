@@ -15,6 +15,10 @@ from ._compile import kernel
 from .vector import add, along, cross, dot, length, scale, unit
 
 
+MOST_EXPONENT = 690.0  # of exp in double precision
+NEVER = 1e300
+
+
 class Braked(NamedTuple):
     """Start of a braked motion: squares of P and Q, both unit vectors, slope G and brake a."""
 
@@ -56,6 +60,8 @@ def _sum(weight, rate, q):
         return 0.0
     if rate == 0.0:
         return weight * q
+    if rate * q < -MOST_EXPONENT:
+        return NEVER
     return -weight * expm1(-rate * q) / rate
 
 
@@ -64,6 +70,8 @@ def _shrunk(weight, rate, q):
     """`weight` exp(-`rate` q)."""
     if weight == 0.0 or (q == inf and rate > 0.0):
         return 0.0
+    if rate * q < -MOST_EXPONENT:
+        return NEVER
     return weight * exp(-rate * q)
 
 

@@ -17,6 +17,7 @@ from .path import (corner, greatest_acceleration, least_acceleration, position, 
 from .vector import add, along, dot, length, vector
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
+TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 NEVER = 1e300
 MOST_STEPS = 200
 IN_THE_AIR, ON_FLAT, ON_EDGE = range(3)
@@ -50,7 +51,7 @@ def closing_bend(ground, part, ball, normal, bend):
 
 @kernel
 def leave(ground, part, ball, radius, until):
-    """Time at which a ball that touches `part` is clear of it, or 0 if it presses on."""
+    """Time at which a ball that touches `part` tangentially is clear of it, or 0 if it presses on."""
     time = 1e-9
     while time < until and time < 1e-2:
         place = position(ball, time)
@@ -81,13 +82,12 @@ def first_touch(ground, part, ball, radius, until):
                 if time >= until:
                     return until, False
                 continue
-            if rate < -1e-9 or time > 0.0 and rate <= 0.0:
+            if rate < -TANGENTIAL or time > 0.0 and rate <= 0.0:
                 return time, True
-            free = leave(ground, part, ball, radius, until) if time == 0.0 else time
-            if free == 0.0:
-                return 0.0, True
-            if time == 0.0:
-                time = free
+            if time == 0.0 and rate <= TANGENTIAL:
+                time = leave(ground, part, ball, radius, until)
+                if time == 0.0:
+                    return 0.0, True
                 if time >= until:
                     return until, False
                 continue
@@ -178,12 +178,13 @@ def crossing(border, ball, shift, bend, until):
         time = 1e-8 / (speed + 1e-8)
         if time >= until:
             return until
+    rate = 0.0
     for _ in range(MOST_STEPS):
         place = add(position(ball, time), shift)
         gap, direction = surface.distance_in_plan(border, place[0], place[1])
+        if gap <= TOUCH:  # on the line there is no direction from it: the approach decides
+            return time if rate < 0.0 else until
         rate = dot(direction, velocity(ball, time))
-        if gap <= TOUCH:
-            return time if rate < 0.0 and time > 0.0 else until
         time += safe_advance(gap, rate, bend)
         if time >= until:
             return until

@@ -6,6 +6,7 @@ from .effects import felt_normal, pull
 from .ground import surface
 from .impulse import Bond, impulse, take
 from .material import restitution
+from .shot import note_landing
 from .state import BOUNCE, FLIGHT, REST, SLIDE
 from .vector import ZERO, along, dot, length, put, scale, sub, vector
 
@@ -13,6 +14,7 @@ WORTH_TELLING = 0.1  # m/s of approach: slower contacts are not collisions
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
 WALL = 1e-3  # least part of gravity that must press for a ball to come to rest on a surface
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
+SLOW = 3.0  # m/s: slower than this the air hardly matters
 STALL = 1e-6  # s between impacts: below this a ball is caught between surfaces
 MANY_STALLS = 20
 CAUGHT = 2e-3  # m/s: slower than this between two surfaces is at rest
@@ -35,9 +37,10 @@ def meet(land, ball, number, now, log):
     if part >= 0 and dot(same, normal) > 1.0 - 1e-9:
         ball['target'] = part
     approach = -dot(vector(ball['velocity']), normal)
-    rebound, bounciness = bounce(land, ball, number, now, normal, log)
     if approach > WORTH_TELLING:
+        note_landing(ball, now)
         ball['bounces'] += 1
+    rebound, bounciness = bounce(land, ball, number, now, normal, log)
     ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
     after_impact(land, ball, now, (supported, approach, rebound, bounciness), normal)
     if ball['stalled'] > MANY_STALLS and length(vector(ball['velocity'])) < CAUGHT:
@@ -90,7 +93,7 @@ def after_impact(land, ball, now, impact, normal):
     supported, approach, rebound, bounciness = impact
     press = -dot(pull(land.effects, vector(ball['position'])), normal)
     if press > WALL * length(pull(land.effects, vector(ball['position']))):
-        if rebound <= STILL or rebound < land.limits.settle and bounciness < 1.0:
+        if rebound <= STILL or rebound < settle_speed(land, ball) and bounciness < 1.0:
             # Bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all and press with
             # v (1 + e) / (1 - e) on the whole: (1 + e) / 2 of the weight, on the average.
             ball['tail_end'] = now
@@ -111,6 +114,17 @@ def after_impact(land, ball, now, impact, normal):
             return
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
+
+
+@kernel
+def settle_speed(land, ball):
+    """Rebound below which the rest of the bounces is summed: less for a fast ball.
+
+    The sum leaves out what the air does meanwhile, which goes with the square of the speed, and
+    the ball carries that on for a time that goes with the speed.
+    """
+    speed = length(vector(ball['velocity'])) / SLOW
+    return land.limits.settle / (1.0 + speed * speed * speed)
 
 
 @kernel

@@ -92,19 +92,20 @@ def summary(balls, hole, lies):
     is not a number.
     """
     told = np.zeros(len(balls), SUMMARY)
-    flew = (balls['flew'] != 0) & (balls['landed'] != 0)
+    landed = balls['landed'] != 0
     landing = balls['landing_velocity']
     level = np.hypot(landing[:, 0], landing[:, 1])
     told['status'] = [OVER_TIME if late else STATUS.get(phase, MOVING)
                       for late, phase in zip(balls['over_time'], balls['phase'])]
-    told['carry'], told['carry_side'] = np.where(flew, way(balls, 'landed_at'), 0.0)
+    told['carry'], told['carry_side'] = np.where(landed, way(balls, 'landed_at'), 0.0)
     told['total'], told['side'] = way(balls, 'position')
-    told['apex'] = np.where(balls['flew'] != 0, balls['highest'] - balls['struck_at'][:, 2], 0.0)
-    told['flight_time'] = np.where(flew, balls['landing'] - balls['struck'], 0.0)
+    told['apex'] = np.where(landed | np.isin(balls['phase'], (Phase.FLIGHT, Phase.OUT)),
+                            balls['highest'] - balls['struck_at'][:, 2], 0.0)
+    told['flight_time'] = np.where(landed, balls['landing'] - balls['struck'], 0.0)
     told['duration'] = balls['ended'] - balls['struck']
     told['lie'] = [lies[m] if s >= 0 else '' for m, s in zip(balls['material'], balls['support'])]
-    told['landing_speed'] = np.where(flew, np.hypot(level, landing[:, 2]), 0.0)
-    told['landing_angle'] = np.where(flew, np.arctan2(-landing[:, 2], level), 0.0)
+    told['landing_speed'] = np.where(landed, np.hypot(level, landing[:, 2]), 0.0)
+    told['landing_angle'] = np.where(landed, np.arctan2(-landing[:, 2], level), 0.0)
     told['bounces'], told['position'] = balls['bounces'], balls['position']
     told['velocity'], told['spin'] = balls['launch'], balls['launch_spin']
     x, y = hole or (np.nan, np.nan)

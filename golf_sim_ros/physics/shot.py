@@ -11,7 +11,6 @@ def keep_highest(ball):
     """Keep the greatest height that the ball reaches on its piece of flight. Writes highest."""
     if ball['phase'] != FLIGHT:
         return
-    ball['flew'] = 1
     time = ball['end'] - ball['begin']
     start = path.position(ball, 0.0)[2]
     ball['highest'] = max(ball['highest'], max(start, path.position(ball, time)[2]))
@@ -68,7 +67,6 @@ def tee_off(ball, now):
     put(ball['struck_at'], vector(ball['position']))
     put(ball['launch'], vector(ball['velocity']))
     put(ball['launch_spin'], vector(ball['spin']))
-    ball['flew'] = 0
     ball['landed'] = 0
     ball['bounces'] = 0
     ball['over_time'] = 0

@@ -54,7 +54,7 @@ BALL = np.dtype([
     ('step', 'f8'), ('stages', 'f8', (8, 9)), ('evaluations', 'i8'),
     # the shot under way
     ('playing', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
-    ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'), ('flew', 'i8'),
+    ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
     ('bounces', 'i8'), ('stalled', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
 ], align=True)

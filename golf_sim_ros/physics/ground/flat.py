@@ -257,9 +257,10 @@ def plan(shape):
 
 
 def heights(shape):
-    """Least and greatest height of a patch; a plane has ground all the way down, and no top."""
+    """Least and greatest height of a patch; of a level plane its own; a tilted one has no bounds."""
     if isinstance(shape, Plane):
-        return -inf, -inf
+        level = frame(shape.normal, 0.0)[0][2] == 1.0
+        return (shape.point[2], shape.point[2]) if level else (-inf, -inf)
     _, a, b = frame(shape.normal, shape.heading)
     reach = 0.5 * shape.length * abs(a[2]) + 0.5 * shape.width * abs(b[2])
     return shape.center[2] - reach, shape.center[2] + reach
