@@ -15,6 +15,7 @@ SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from anothe
 WALL = 1e-3  # least part of gravity that must press for a ball to come to rest on a surface
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
 SLOW = 3.0  # m/s: slower than this the air hardly matters
+LEAST_SETTLE = 1e-6  # m/s: a bounce 0.05 picometres high
 STALL = 1e-6  # s between impacts: below this a ball is caught between surfaces
 MANY_STALLS = 20
 CAUGHT = 2e-3  # m/s: slower than this between two surfaces is at rest
@@ -124,7 +125,7 @@ def settle_speed(land, ball):
     the ball carries that on for a time that goes with the speed.
     """
     speed = length(vector(ball['velocity'])) / SLOW
-    return land.limits.settle / (1.0 + speed * speed * speed)
+    return max(land.limits.settle / (1.0 + speed * speed * speed), LEAST_SETTLE)
 
 
 @kernel
