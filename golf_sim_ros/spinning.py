@@ -19,22 +19,42 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 REFUSED = (ValueError, ParameterException)  # a wrong parameter or file
 
 
+class Ending:
+    """Whether a signal has told this process to end (`told`).
+
+    While `at_once`, it also interrupts whatever goes on, a compilation say.
+    """
+
+    def __init__(self):
+        self.told, self.at_once = False, True
+        for number in SIGNALS:
+            signal.signal(number, self.tell)
+
+    def tell(self, number, frame):
+        """What a signal calls."""
+        self.told = True
+        if self.at_once:
+            raise KeyboardInterrupt
+
+
 def run(make_node, args=None):
     """Exit code of a process that runs the node made by `make_node` until it is told to stop.
 
     SIGINT and SIGTERM end it with 0 at any time, also while it compiles. Where `make_node` raises
     what a user can put right (`REFUSED`), the log has one line and the code is 1.
     """
-    on_signal(signal.default_int_handler)
+    ending = Ending()
     complete_environment()
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     try:
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         node = checked(make_node)
         if node is None:
-            return 1
-        spin(node)
-    except KeyboardInterrupt:
-        pass
+            return 0 if ending.told else 1
+        ending.at_once = False
+        spin(node, ending)
+    except BaseException:  # interrupted, a compiler may well raise something else
+        if not ending.told:
+            raise
     finally:
         rclpy.try_shutdown()
     return 0
@@ -49,23 +69,15 @@ def checked(make_node):
         return None
 
 
-def spin(node):
-    """Let `node` work until a signal comes, never in the middle of a callback.
+def spin(node, ending):
+    """Let `node` work until the `ending` is told, never stopping in the middle of a callback.
 
     `EventsExecutor` takes a fifth of the processor time; its `spin` without a timeout never calls
     back in rclpy 7.1, `spin_once` does.
     """
-    stop = []
-    on_signal(lambda number, frame: stop.append(number))
     executor = EventsExecutor()
     executor.add_node(node)
-    while rclpy.ok() and not stop:
+    while rclpy.ok() and not ending.told:
         executor.spin_once(timeout_sec=0.25)
     executor.remove_node(node)
     node.destroy_node()
-
-
-def on_signal(handler):
-    """Call `handler` on each of `SIGNALS`."""
-    for number in SIGNALS:
-        signal.signal(number, handler)

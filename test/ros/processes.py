@@ -126,16 +126,19 @@ class Client:
 
 
 class Golfer(Client):
-    """A client with one ball: strikes it, and has seen all that was told since it came."""
+    """A client with one ball: strikes it, and sees all that is told from now on.
+
+    Subscriptions are announced in order: a sim whose pose arrives has found those before it.
+    """
 
     def __init__(self, namespace='', ball='ball'):
         super().__init__(namespace)
         self.ball = ball
-        self.poses = self.listen(PoseStamped, f'{ball}/pose')
-        self.collisions = self.listen(String, 'collisions', LASTING)
-        self.contacts = self.listen(PointStamped, f'{ball}/contact', 100)
-        self.results = self.listen(String, 'shot/result', LASTING)
         self.shots = self.publisher(Twist, f'{ball}/shot')
+        self.collisions = self.listen(String, 'collisions', 100)
+        self.contacts = self.listen(PointStamped, f'{ball}/contact', 100)
+        self.results = self.listen(String, 'shot/result', 100)
+        self.poses = self.listen(PoseStamped, f'{ball}/pose', 100)
         wait_until(lambda: self.poses, 'the ball told where it is')
 
     def strike(self, velocity, spin=(0.0, 0.0, 0.0)):
