@@ -59,6 +59,26 @@ BALL = np.dtype([
     ('bounces', 'i8'), ('stalled', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
 ], align=True)
 
+# What counts of a ball that does not move: the rest is written when it sets off.
+STANDING = ('position', 'velocity', 'spin', 'phase', 'support', 'material', 'normal', 'tail_end',
+            'tail_press')
+
+
+def plain(ball):
+    """All that counts of a `BALL` record, as numbers and lists by name."""
+    names = BALL.names if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
+    return {name: ball[name].tolist() for name in names}
+
+
+def restored(values):
+    """`BALL` record of what `plain` gave; ValueError where a name or shape is none of it."""
+    ball = np.zeros((), BALL)
+    ball['end'] = np.inf
+    for name, value in values.items():
+        ball[name] = value
+    return ball
+
+
 # What happened, for the world to report.
 BOUNCE, SHOT_ENDS = range(2)
 

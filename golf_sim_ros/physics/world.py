@@ -14,7 +14,7 @@ from .ground import surface
 from .piece import LONGEST_SHOT, put_down
 from .report import collision, objection, result, three
 from .shot import tee_off
-from .state import BALL, BOUNCE, LAUNCH, NO_PART, REST, STEP, Phase, new_log
+from .state import BALL, BOUNCE, LAUNCH, NO_PART, REST, STEP, Phase, new_log, plain, restored
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
@@ -277,6 +277,25 @@ class World:
         """Put a lost ball back where it was struck."""
         put_down(self._model, ball, three(ball['struck_at']), 0.0)
         ball['phase'], ball['end'] = REST, inf
+
+    def state(self):
+        """All that decides how the play goes on, as numbers, text, lists and dicts; see `restore`."""
+        balls = {name: plain(ball) for name, ball in zip(self.names, self._balls)}
+        return {'time': self.time, 'clock': self._now, 'accuracy': self.accuracy, 'wind': list(self._wind),
+                'balls': balls}
+
+    def restore(self, state):
+        """Go on as a world on the same course, with the same effects, did from its `state`, to the bit.
+
+        Raises
+        ------
+        KeyError, TypeError, ValueError
+            It is no state of such a world.
+        """
+        self.accuracy = state['accuracy']
+        self.set_wind(state['wind'])
+        self._balls[:] = [restored(state['balls'][name]) for name in self.names]
+        self.time, self._now, self._events = float(state['time']), float(state['clock']), []
 
     def reset(self):
         """Put all balls back to the start.
