@@ -19,8 +19,9 @@ def kind(velocity):
 
 
 def line(result):
-    """Line for the log about `result`, such as
-    ``driver-like shot: carry 251 m, total 268 m, 3 m left, fairway, 112 m to the hole``.
+    """Line for the log about `result`.
+
+    Such as ``driver-like shot: carry 251 m, total 268 m, 3 m left, fairway, 112 m to the hole``.
     """
     digits = 0 if result.total >= LONG else 2
     parts = [f'total {result.total:.{digits}f} m', side(result.side, digits), place(result)]
