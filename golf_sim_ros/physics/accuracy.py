@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Presets: how exact a simulation is, from a sketch to a reference."""
+from math import inf
 from typing import NamedTuple
 
 from .integrators.dormand_prince import DormandPrince
@@ -7,16 +8,22 @@ from .model import Limits
 
 
 class Preset(NamedTuple):
-    """An integrator with its tolerance, and limits of the contact laws."""
+    """An integrator with its tolerance, limits of the contact laws, and the error they promise.
+
+    ``touch`` and ``rest`` [m]: how far first touch and rest on level ground lie, at most, from
+    where exact arithmetic would put them, for shots of up to 90 m/s in still air.
+    """
 
     method: NamedTuple
     limits: Limits
+    touch: float = inf
+    rest: float = inf
 
 
 ACCURACY = {
-    'sketch': Preset(DormandPrince(3e-2), Limits(settle=0.1, path=1e-4)),
-    'standard': Preset(DormandPrince(1e-5), Limits(settle=0.01, path=1e-6)),
-    'reference': Preset(DormandPrince(1e-10), Limits(settle=0.0001, path=1e-10)),
+    'sketch': Preset(DormandPrince(1e-2), Limits(settle=0.1, path=1e-4), touch=0.5, rest=1.0),
+    'standard': Preset(DormandPrince(1e-5), Limits(settle=0.01, path=1e-6), touch=1e-3, rest=1e-2),
+    'reference': Preset(DormandPrince(1e-10), Limits(settle=1e-4, path=1e-10), touch=1e-6, rest=1e-4),
 }
 
 
