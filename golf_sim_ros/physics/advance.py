@@ -15,7 +15,7 @@ from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
 from .shot import end_shot, keep_highest, tee_off
 from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, OUT, SLIP_STOPS, STEP, TIME_LIMIT, moves)
-from .vector import ZERO, put, vector
+from .vector import ZERO, along, put, unit, vector
 
 DONE, LOG_FULL = range(2)
 EVENTS_A_BALL = 2  # that one piece's end can log
@@ -84,10 +84,15 @@ def resolve(model, ball, number, log):
 @kernel
 def is_out(model, ball):
     """Whether the ball fell below all ground, or is on the ground outside the bounds."""
-    if not ball['position'][2] >= model.land.ground.lowest - 10.0 * model.land.ball.radius:
+    ground = model.land.ground
+    if not ball['position'][2] >= ground.lowest - 10.0 * model.land.ball.radius:
         return True  # not a number, too: whatever went wrong, the shot is over
-    on_ground = ball['phase'] != FLIGHT or ball['ending'] == HIT
-    return on_ground and not surface.in_bounds(model.land.ground, ball['position'][0], ball['position'][1])
+    if ball['phase'] == FLIGHT and ball['ending'] != HIT:
+        return False
+    # On the line itself, where it is heading decides.
+    heading = unit(vector(ball['velocity']), ZERO)
+    ahead = along(vector(ball['position']), surface.LOOK_AHEAD, heading)
+    return not surface.in_bounds(ground, ahead[0], ahead[1])
 
 
 @entry

@@ -41,9 +41,14 @@ def in_tail(ball, now):
 
 
 @kernel
-def brake(material, press):
-    """Deceleration of a rolling ball: no more than the contact's grip can give."""
-    return min(material['rolling_resistance'], material['static_friction']) * press
+def brake(material, press, downhill, inertia):
+    """Deceleration of a rolling ball: what rolling resistance asks for and grip can give.
+
+    Friction must brake, and turn the ball as it speeds up downhill, with k/(1 + k) of that pull. So a
+    ball holds where (5/7) tan <= rolling resistance and tan <= static friction.
+    """
+    grip = material['static_friction'] * press - inertia / (1.0 + inertia) * length(downhill)
+    return min(material['rolling_resistance'] * press, max(grip, 0.0))
 
 
 @kernel
@@ -65,8 +70,7 @@ def settle(land, ball, now):
         ball['phase'] = SLIDE
         return
     ball['phase'] = ROLL
-    holds = (length(downhill) / (1.0 + k) <= brake(material, press)
-             and length(downhill) <= material['static_friction'] * press)
+    holds = length(downhill) / (1.0 + k) <= brake(material, press, downhill, k)
     if length(v) <= STILL and holds and not in_tail(ball, now):
         v = ZERO
         put(ball['velocity'], v)
@@ -91,15 +95,18 @@ def flat_piece(land, ball, now):
         motion = braked.braked(u, downhill, (1.0 + 1.0 / k) * material['dynamic_friction'] * load, normal)
         coast = (along(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:
-        motion = braked.braked(v, drift, 0.0 if tail else brake(material, press), normal)
+        motion = braked.braked(v, drift, 0.0 if tail else brake(material, press, downhill, k), normal)
         coast = (ZERO, ZERO, 1.0)
-    unwinding = material['pivot_friction'] * load / (k * land.ball.radius * land.ball.radius)
+    unwinding = material['pivot_friction'] * press / (k * land.ball.radius * land.ball.radius)
     turning = dot(vector(ball['spin']), normal)
     horizon = LONGEST
-    if unwinding > 0.0 and abs(turning) * land.ball.radius > STILL:
-        horizon = min(horizon, abs(turning) / unwinding)
-    if tail:
+    if abs(turning) * land.ball.radius <= STILL:
+        turning = 0.0
+    if tail:  # single impacts do not brake a pivoting ball, nor does their sum
+        unwinding = 0.0
         horizon = min(horizon, ball['tail_end'] - now)
+    if unwinding > 0.0 and turning != 0.0:
+        horizon = min(horizon, abs(turning) / unwinding)
     end = reach(motion, horizon)
     while True:
         lay_glide(land, ball, motion, coast, end, turning, unwinding)
@@ -183,7 +190,7 @@ def bent_rates(land, ball, place, velocity, spin):
     about = dot(spin, normal)
     free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
     if length(velocity) > STILL:
-        free = along(free, -brake(material, press) / length(velocity), velocity)
+        free = along(free, -brake(material, press, downhill, k) / length(velocity), velocity)
     friction = sub(free, downhill)
     sliding = slip(velocity, spin, normal, r)
     if length(sliding) > 1e-6:

@@ -163,7 +163,7 @@ class World:
         self._settle_clock()
         self._balls[self.names.index(name)] = trial
         ball['playing'] = 0
-        self._set_off(ball, velocity or ZERO, spin or ZERO)
+        self._set_off(ball, ZERO if velocity is None else velocity, ZERO if spin is None else spin)
 
     def _put_down(self, ball, position):
         depth = 0.0
@@ -305,6 +305,9 @@ class World:
         list of Result
             Shots under way, with status 'aborted'.
         """
+        moving = np.isin(self._balls['phase'], MOVING)
+        self._balls['end'][moving], self._balls['ending'][moving] = self._now, STEP
+        self._let_happen(self._now)
         aborted = []
         for ball, name in zip(self._balls, self.names):
             if ball['playing']:
