@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Speed, height and spin over the time since the strike."""
+import numpy as np
+
+from .style import GRID, bare, colors, stroke
+from .views import touches
+
+
+def charts(axes, shots):
+    """Draw the three charts into three `axes`."""
+    for place, (title, amount, at_bounce) in zip(axes, CHARTS):
+        for shot, color in zip(shots, colors(len(shots))):
+            place.plot(shot.times - shot.times[0], amount(shot), color=color, zorder=5, **stroke(len(shots)))
+            touches(place, [(c.time - shot.times[0], at_bounce(shot, c)) for c in shot.collisions], color,
+                    len(shots))
+        place.set_xlim(0.0, max(shot.times[-1] - shot.times[0] for shot in shots) * 1.02 + 1e-3)
+        place.grid(color=GRID, linewidth=0.6, zorder=0)
+        place.set_axisbelow(True)
+        bare(place, title, 'time since the strike [s]')
+        for side in ('top', 'right'):
+            place.spines[side].set_visible(False)
+    for place in axes:
+        low, high = place.dataLim.intervaly
+        place.set_ylim(low - 0.04 * (high - low) if low < 0.0 else 0.0)
+
+
+def speed(shot):
+    """Speed of the ball [m/s]."""
+    return np.linalg.norm(shot.velocities, axis=1)
+
+
+def height(shot):
+    """Height over the strike [m]."""
+    return shot.positions[:, 2] - shot.positions[0, 2]
+
+
+def spin(shot):
+    """Rate of spin [rad/s]."""
+    return np.linalg.norm(shot.spins, axis=1)
+
+
+CHARTS = (
+    ('Speed [m/s]', speed, lambda shot, hit: np.linalg.norm(hit.velocity_after)),
+    ('Height over the strike [m]', height, lambda shot, hit: hit.position[2] - shot.positions[0, 2]),
+    ('Spin [rad/s]', spin, lambda shot, hit: np.linalg.norm(hit.spin_after)),
+)

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is drawn of a shot, wherever it comes from: a simulation or a recording."""
+from typing import NamedTuple
+
+import numpy as np
+
+from ..physics.play import checked_gusts
+from ..physics.report import Result
+from ..physics.vector import ZERO
+
+
+class DrawnShot(NamedTuple):
+    """A shot to be drawn; SI units, the course's frame, all times on one clock.
+
+    Parameters
+    ----------
+    result : golf_sim_ros.physics.Result
+    collisions : tuple of golf_sim_ros.physics.Collision
+    times : ndarray, (n,)
+        The first is that of the strike, the last that of the end.
+    positions, velocities, spins : ndarray, (n, 3)
+    wind : ndarray, (m, 4)
+        Rows of a time and the wind from then on; the first not after the strike.
+    """
+
+    result: Result
+    collisions: tuple
+    times: np.ndarray
+    positions: np.ndarray
+    velocities: np.ndarray
+    spins: np.ndarray
+    wind: np.ndarray
+
+    @property
+    def flew(self):
+        """Whether the ball left the ground when it was struck."""
+        return self.result.apex > 0.0
+
+
+def drawn(play, wind=ZERO):
+    """`DrawnShot` of a `golf_sim_ros.physics.Play`; `wind` is what was given to `simulate`."""
+    return DrawnShot(play.result, play.collisions, play.times, play.positions, play.velocities,
+                     play.spins, checked_gusts(wind))
+
+
+def detailed(shot):
+    """`shot` with two more rows for each collision, just before and just after it."""
+    hits = [hit for hit in shot.collisions if shot.times[0] <= hit.time <= shot.times[-1]]
+    if not hits:
+        return shot
+    places = np.searchsorted(shot.times, np.repeat([hit.time for hit in hits], 2))
+
+    def with_hits(rows, before, after):
+        more = [getattr(hit, name) for hit in hits for name in (before, after)]
+        return np.insert(rows, places, more, axis=0)
+
+    return shot._replace(
+        times=with_hits(shot.times, 'time', 'time'),
+        positions=with_hits(shot.positions, 'position', 'position'),
+        velocities=with_hits(shot.velocities, 'velocity_before', 'velocity_after'),
+        spins=with_hits(shot.spins, 'spin_before', 'spin_after'))

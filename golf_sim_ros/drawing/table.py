@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What became of the shots, in numbers."""
+from math import degrees, hypot
+
+import numpy as np
+
+from . import wind
+from .style import GRID, INK, PALE, SMALL, colors
+
+ROW = 0.22   # inches
+ENDINGS = {'at_rest': 'at rest', 'out_of_bounds': 'out of bounds', 'time_limit': 'time limit'}
+
+
+def length(metres):
+    """A length to be read."""
+    return '' if metres is None else f'{metres:.2f}'
+
+
+def aside(metres):
+    """How far to the left or right."""
+    amount = length(abs(metres))
+    return amount if float(amount) == 0.0 else f'{amount} {"L" if metres > 0.0 else "R"}'
+
+
+def flight(value):
+    """Column of a value that only shots have which flew."""
+    return lambda shot: value(shot.result) if shot.flew else '–'
+
+
+WORDS = ('ball', 'ended', 'lie')  # columns of words stand to the left, those of numbers to the right
+GAP = 0.015
+
+# Heading, unit, width against the others, text of a shot.
+COLUMNS = (
+    ('shot', '', 0.7, lambda s: str(s.result.shot)),
+    ('ball', '', 1.0, lambda s: s.result.ball),
+    ('ended', '', 1.5, lambda s: ENDINGS.get(s.result.status, s.result.status)),
+    ('lie', '', 1.1, lambda s: s.result.lie or '–'),
+    ('speed', 'm/s', 0.9, lambda s: f'{hypot(*s.result.velocity):.1f}'),
+    ('spin', 'rad/s', 0.9, lambda s: f'{hypot(*s.result.spin):.0f}'),
+    ('carry', 'm', 0.9, flight(lambda r: length(r.carry))),
+    ('apex', 'm', 0.9, flight(lambda r: length(r.apex))),
+    ('flight', 's', 0.9, flight(lambda r: f'{r.flight_time:.2f}')),
+    ('landing', 'deg', 1.0, flight(lambda r: f'{degrees(r.landing_angle):.1f}')),
+    ('bounces', '', 1.0, lambda s: str(s.result.bounces)),
+    ('total', 'm', 0.9, lambda s: length(s.result.total)),
+    ('side', 'm', 1.0, lambda s: aside(s.result.side)),
+    ('duration', 's', 1.0, lambda s: f'{s.result.duration:.2f}'),
+    ('to hole', 'm', 1.0, lambda s: length(s.result.to_hole)),
+    ('wind', 'm/s', 0.9, lambda s: f'{wind.mean(s):.1f}'),
+)
+
+
+def height(shots):
+    """Inches that a table of `shots` takes."""
+    return ROW * (len(shots) + 1.5)
+
+
+def table(axes, shots):
+    """Write a row for each of `shots` into `axes`."""
+    axes.set_axis_off()
+    axes.set(xlim=(0.0, 1.0), ylim=(len(shots), -1.5))
+    shown = columns(shots)
+    ends = np.cumsum([width for _, _, width, _ in shown])
+    ends = ends / ends[-1]
+    for (heading, unit, _, text), left, right in zip(shown, [0.0, *ends], ends):
+        words = heading in WORDS
+        place, align = (left + GAP, 'left') if words else (right, 'right')
+        write(axes, place, -1.1, heading, align, INK)
+        write(axes, place, -0.4, unit, align, PALE)
+        for row, shot in enumerate(shots):
+            write(axes, place, row + 0.5, text(shot), align, INK)
+    for row, color in enumerate(colors(len(shots))):
+        axes.plot([0.0, 0.012], [row + 0.5] * 2, color=color, linewidth=4.0, solid_capstyle='butt')
+        axes.axhline(row, color=GRID, linewidth=0.6)
+
+
+def columns(shots):
+    """Those columns that tell something of `shots`."""
+    useless = set()
+    if len({shot.result.ball for shot in shots}) == 1:
+        useless.add('ball')
+    if all(shot.result.to_hole is None for shot in shots):
+        useless.add('to hole')
+    return [column for column in COLUMNS if column[0] not in useless]
+
+
+def write(axes, x, y, text, align, color):
+    """Write one cell."""
+    axes.text(x, y, text, ha=align, va='center', fontsize=SMALL, color=color)

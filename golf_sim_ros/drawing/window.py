@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which part of the course is seen."""
+from typing import NamedTuple
+
+import numpy as np
+
+MARGIN = 0.04       # of the longer side, around all that is drawn
+LEAST = 1.0         # m: a ball that hardly moved is not drawn larger than this
+TALL = (0.16, 0.42)  # height over width of the view from above
+FAR = 1.5           # of a play's length: where the hole is farther off, it isn't shown
+NEAR = 16.0        # ends nearer to the hole than the width over this are drawn once more, larger
+
+
+class Window(NamedTuple):
+    """A rectangle of the course, in plan [m]."""
+
+    left: float
+    right: float
+    low: float
+    high: float
+
+    @property
+    def width(self):
+        """Along x."""
+        return self.right - self.left
+
+    @property
+    def height(self):
+        """Along y."""
+        return self.high - self.low
+
+
+def window(shots, course):
+    """`Window` that shows all `shots`, and the hole where it isn't far away."""
+    places = np.vstack([shot.positions[:, :2] for shot in shots])
+    low, high = places.min(0), places.max(0)
+    length = max(*(high - low), LEAST)
+    if course and course.hole and beyond(low, high, course.hole) <= FAR * length:
+        low, high = np.minimum(low, course.hole), np.maximum(high, course.hole)
+        length = max(*(high - low), LEAST)
+    width, height = high - low + 2 * MARGIN * length
+    height = max(height, TALL[0] * max(width, LEAST))
+    width = max(width, height / TALL[1])
+    x, y = 0.5 * (low + high)
+    return Window(x - 0.5 * width, x + 0.5 * width, y - 0.5 * height, y + 0.5 * height)
+
+
+def beyond(low, high, place):
+    """How far `place` lies outside the rectangle from `low` to `high`."""
+    return np.linalg.norm(np.clip(place, low, high) - place)
+
+
+def near_hole(shots, course, whole):
+    """Square `Window` around the hole and the ends that lie too near to it in the `whole` one, or None."""
+    if not course or not course.hole:
+        return None
+    near = [shot.result.to_hole for shot in shots if shot.result.to_hole * NEAR < whole.width]
+    if not near:
+        return None
+    (x, y), half = course.hole, 1.25 * max(*near, LEAST)
+    return Window(x - half, x + half, y - half, y + half)
