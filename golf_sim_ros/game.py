@@ -4,6 +4,7 @@ from time import perf_counter
 
 from . import account, messages
 from .diagnosis import Diagnosis, SLOW
+from .journal import Journal
 from .orientation import turned, UPRIGHT
 from .pace import Pace
 from .physics import Phase, Rejected, Result
@@ -33,6 +34,7 @@ class Game:
     def __init__(self, world, broadcast, refusals, log, rate, publish_rate):
         self.world, self.broadcast, self.refusals, self.log = world, broadcast, refusals, log
         self.pace = Pace(1.0 / rate)
+        self.journal, self.ticks = Journal(broadcast.tell_entry), 0
         self.diagnosis = Diagnosis(rate / publish_rate)
         self.steps_a_scene = max(1, round(publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
@@ -72,6 +74,7 @@ class Game:
         """Advance by one tick and tell what happened in it."""
         began = perf_counter()
         events = self.world.advance(self.pace.tick)
+        self.ticks += 1
         self.diagnosis.durations.append(perf_counter() - began)
         for name in self.moving():
             self.orientations[name] = turned(self.orientations[name], self.world[name].spin, self.pace.tick)
@@ -86,6 +89,8 @@ class Game:
         if self.wind != self.blowing:
             self.world.set_wind(self.wind)
             self.blowing = self.wind
+            if self.world.moving:
+                self.journal.note('wind', self.ticks, wind=self.wind)
         inputs, self.inputs = self.inputs, []
         for act in inputs:
             act()
@@ -93,6 +98,7 @@ class Game:
     def strike(self, name, velocity, spin):
         """Strike a ball; a bad shot has its result at once."""
         self.shots += 1
+        before = self.world.state()
         try:
             self.world.strike(name, velocity, spin)
         except Rejected as error:
@@ -101,6 +107,7 @@ class Game:
             self.refusals.warn('shot', f'{name}: {error}')
             return
         self.playing[name] = self.shots
+        self.journal.strike(self.ticks, self.shots, name, (velocity, spin), before)
         self.broadcast.scene.trails[name].clear()
 
     def place(self, name, point):
@@ -112,12 +119,15 @@ class Game:
         except ValueError as error:
             self.refusals.warn('place', f'{name}: {error}')
             return
+        self.journal.note('place', self.ticks, ball=name, position=point[:2])
         self.broadcast.scene.trails[name].clear()
         self.all_due = True
 
     def reset(self):
         """All balls back to the start; shots under way end as aborted."""
-        for result in self.world.reset():
+        aborted = self.world.reset()
+        self.journal.note('reset', self.ticks)
+        for result in aborted:
             self.finish(result)
         for name in self.world.names:
             self.orientations[name] = UPRIGHT
@@ -127,8 +137,18 @@ class Game:
     def finish(self, result):
         """Tell the end of a shot."""
         self.awake.add(result.ball)
-        self.broadcast.results.publish(messages.result_json(result, self.playing.pop(result.ball)))
+        shot, ball = self.playing.pop(result.ball), self.world[result.ball]
+        self.journal.rest(self.ticks, shot, result, ball)
+        if result.status == 'out_of_bounds':
+            self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
+        self.broadcast.results.publish(messages.result_json(result, shot))
         self.log.info(account.line(result))
+
+    def be_exact(self, accuracy):
+        """Simulate with another accuracy from now on."""
+        self.world.accuracy = accuracy
+        if self.world.moving:
+            self.journal.note('accuracy', self.ticks, accuracy=accuracy)
 
     def moving(self):
         """Names of the balls that move."""

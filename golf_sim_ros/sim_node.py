@@ -54,6 +54,7 @@ class SimNode(Node):
         broadcast = Broadcast(self, self.world, given.frame_id, self.on_viewer, self.on_follower)
         self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given.rate,
                          given.publish_rate)
+        self.game.journal.config(self.world, given._asdict(), broadcast.began)
         self.subscribe()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
@@ -155,7 +156,7 @@ class SimNode(Node):
         """Follow the parameters that may change."""
         for parameter in parameters:
             if parameter.name == 'accuracy':
-                self.world.accuracy = parameter.value
+                self.game.be_exact(parameter.value)
 
     def store(self, act):
         """Keep `act`, to be done by the next step."""

@@ -77,10 +77,10 @@ def make(folder):
     venv.create(folder, clear=True, with_pip=True, symlinks=True, system_site_packages=sourced)
     python = os.path.join(os.path.abspath(folder), 'bin', 'python')
     if sourced and has_ros(python):
-        install(python, ['.[test,plot,study]'] + numpy_of_ros(python))
+        install(python, ['.[test,plot,study,bag]'] + numpy_of_ros(python))
     else:
         check_platform()
-        install(python, ['.[ros,test,plot,study]'])
+        install(python, ['.[ros,test,plot,study,bag]'])
     with open(stamp(folder), 'w') as file:
         file.write(wanted(folder))
 

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results and collisions as JSON, as the topics tell them."""
+import json
+from math import isfinite
+
+RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time',
+          'duration', 'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time',
+          'position', 'velocity', 'spin', 'reason')
+REJECTION = ('shot', 'ball', 'status', 'velocity', 'spin', 'reason')
+COLLISION = ('time', 'ball', 'kind', 'with', 'position', 'normal', 'velocity_before',
+             'velocity_after', 'spin_before', 'spin_after', 'impulse')
+DIGITS = 4  # of lengths, speeds and angles in a result; `time` has two more
+
+
+def collision_text(collision):
+    """One JSON object, in full precision."""
+    values = collision._asdict()
+    values['with'] = values['with_']
+    return text({key: values[key] for key in COLLISION})
+
+
+def result_text(result, shot):
+    """One JSON object for the end of strike number `shot`, rounded for people."""
+    values = {**result._asdict(), 'shot': shot}
+    rounded = {key: plain(values[key], DIGITS) for key in RESULT}
+    return text({**rounded, 'time': plain(result.time, DIGITS + 2)})
+
+
+def rejection_text(shot, ball, velocity, spin, reason):
+    """One JSON object for strike number `shot`, which was not played."""
+    values = (shot, ball, 'rejected', plain(velocity, DIGITS), plain(spin, DIGITS), reason)
+    return text(dict(zip(REJECTION, values)))
+
+
+def plain(value, digits):
+    """`value` for JSON: floats rounded, or None where not finite; never a negative zero."""
+    if isinstance(value, float):
+        return round(value, digits) + 0.0 if isfinite(value) else None
+    if isinstance(value, (tuple, list)):
+        return [plain(part, digits) for part in value]
+    return value
+
+
+def text(values):
+    """`values` as JSON; numbers come back as they were, to the bit."""
+    return json.dumps(values, allow_nan=False)
