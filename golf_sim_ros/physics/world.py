@@ -20,7 +20,6 @@ from .vector import ZERO
 APART = 0.5  # m between balls on the tee
 FALL = 1e4  # m: how far down ground is looked for
 RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
-MOVING = (Phase.FLIGHT, Phase.SLIDE, Phase.ROLL)
 MOST_WIND = 100.0  # m/s
 
 
@@ -102,7 +101,12 @@ class World:
     @property
     def moving(self):
         """Whether any ball moves."""
-        return bool(np.isin(self._balls['phase'], MOVING).any())
+        return bool(self._in_motion().any())
+
+    def _in_motion(self):
+        """Which balls move; of the phases, flight is the first that does and rolling the last."""
+        phases = self._balls['phase']
+        return (phases >= Phase.FLIGHT) & (phases <= Phase.ROLL)
 
     @property
     def compiled(self):
@@ -156,14 +160,16 @@ class World:
         """
         ball = self._ball(name)
         position = tuple(map(float, position))
-        if not all(map(isfinite, position)):
-            raise ValueError(f'position {position} is not finite')
+        velocity = ZERO if velocity is None else tuple(map(float, velocity))
+        spin = ZERO if spin is None else tuple(map(float, spin))
+        if not all(map(isfinite, (*position, *velocity, *spin))):
+            raise ValueError(f'position {position}, velocity {velocity} or spin {spin} is not finite')
         trial = ball.copy()
         self._put_down(trial, position)
         self._settle_clock()
         self._balls[self.names.index(name)] = trial
         ball['playing'] = 0
-        self._set_off(ball, ZERO if velocity is None else velocity, ZERO if spin is None else spin)
+        self._set_off(ball, velocity, spin)
 
     def _put_down(self, ball, position):
         depth = 0.0
@@ -305,7 +311,7 @@ class World:
         list of Result
             Shots under way, with status 'aborted'.
         """
-        moving = np.isin(self._balls['phase'], MOVING)
+        moving = self._in_motion()
         self._balls['end'][moving], self._balls['ending'][moving] = self._now, STEP
         self._let_happen(self._now)
         aborted = []
