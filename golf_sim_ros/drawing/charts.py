@@ -2,15 +2,15 @@
 """Speed, height and spin over the time since the strike."""
 import numpy as np
 
-from .style import GRID, bare, colors, stroke
-from .views import touches
+from .style import GRID, bare, colors
+from .views import path, touches
 
 
 def charts(axes, shots):
     """Draw the three charts into three `axes`."""
     for place, (title, amount, at_bounce) in zip(axes, CHARTS):
         for shot, color in zip(shots, colors(len(shots))):
-            place.plot(shot.times - shot.times[0], amount(shot), color=color, zorder=5, **stroke(len(shots)))
+            path(place, shot, shot.times - shot.times[0], amount(shot), color, len(shots))
             touches(place, [(c.time - shot.times[0], at_bounce(shot, c)) for c in shot.collisions], color,
                     len(shots))
         place.set_xlim(0.0, max(shot.times[-1] - shot.times[0] for shot in shots) * 1.02 + 1e-3)
