@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bags of recorded play: both storages, damage, and what is not a play."""
+import json
+from math import pi
+
+import pytest
+
+pytest.importorskip('rosbags')
+
+from golf_sim_ros.bag import BagError, read_bag  # noqa: E402
+from golf_sim_ros.journal import Journal, JournalError, opened, sealed  # noqa: E402
+import recorded_play  # noqa: E402
+from recorded_play import bag, changed, CHIP, made, PITCH, RATE, replaced, SPIN, START, without  # noqa: E402
+
+STORAGES = ('mcap', 'sqlite3')
+
+
+@pytest.fixture(scope='module')
+def told():
+    """What a sim told of a chip in a gust."""
+    inputs = [(3, 'strike', ('red', CHIP, SPIN)), (50, 'wind', ((3.0, 0.0, 0.0),))]
+    return recorded_play.Sim().play(inputs, 1500)
+
+
+@pytest.fixture(params=STORAGES)
+def storage(request):
+    """Each of the storages of rosbag2."""
+    return request.param
+
+
+def test_both_storages_give_the_play(told, tmp_path, storage):
+    recording, = read_bag(bag(tmp_path / 'bag', told, storage))
+    assert recording.namespace == '' and recording.start == START
+    assert [entry['kind'] for entry in recording.journal] == ['config', 'strike', 'wind', 'rest']
+    assert recording.config['course']['name'] == 'Golf without friends'
+    strike, = recording.strikes
+    assert strike[1:] == ('red', CHIP, SPIN)
+    result, = recording.results
+    assert result['shot'] == 1 and result['bounces'] == len(recording.collisions) > 2
+    assert recording.winds.tolist() == [[3.0, 0.0, 0.0]]
+    track = recording.tracks['red']
+    assert list(recording.tracks) == ['red', 'blue']
+    assert track.positions.shape == track.velocities.shape == track.spins.shape == (len(track.times), 3)
+    assert track.orientations.shape == (len(track.times), 4)
+    first = track.positions[track.velocities[:, 2] > 0][0]
+    assert first[2] > 0.02
+    ticks = recording.seconds(track.times) * RATE
+    assert ticks == pytest.approx([round(tick) for tick in ticks], abs=1e-3)
+
+
+def test_what_is_told_twice_counts_once_and_the_journal_is_in_order(told, tmp_path):
+    later = [(topic, kind, received + 10**10, message) for topic, kind, received, message in told[::-1]]
+    once, = read_bag(bag(tmp_path / 'once', told))
+    again, = read_bag(bag(tmp_path / 'twice', told + later))
+    assert again.journal == once.journal
+    assert again.results == once.results and again.collisions == once.collisions
+
+
+def test_each_sim_and_each_of_its_starts_is_a_recording_of_its_own(told, tmp_path):
+    restarted = recorded_play.Sim(start=START + 10**12)
+    other = recorded_play.Sim('/links/east')
+    for sim in (restarted, other):
+        sim.play([(3, 'strike', ('blue', CHIP, SPIN))], 100)
+    plays = read_bag(bag(tmp_path / 'bag', [*told, *other.told, *restarted.told]))
+    assert sorted((play.namespace, play.start) for play in plays) == [
+        ('', START), ('', START + 10**12), ('/links/east', START)]
+    assert all(play.journal[1]['ball'] == ('red' if (play.namespace, play.start) == ('', START) else 'blue')
+               for play in plays)
+
+
+def test_a_play_without_journal_can_be_read(told, tmp_path):
+    recording, = read_bag(bag(tmp_path / 'bag', without(told, 'journal')))
+    assert recording.journal == () and recording.config is None
+    assert recording.start == recording.tracks['red'].times[0]
+
+
+def test_a_byte_changed_in_a_strike_is_noticed(told, tmp_path):
+    changed_one = changed(told, replaced('"velocity": [9.0', '"velocity": [9.1'), 'journal')
+    with pytest.raises(BagError, match='entry 1 strike was changed'):
+        read_bag(bag(tmp_path / 'bag', changed_one))
+
+
+def test_a_byte_changed_in_the_file_itself_is_noticed(told, tmp_path, storage):
+    path = bag(tmp_path / 'bag', told, storage)
+    file, = (file for file in path.iterdir() if file.suffix != '.yaml')
+    content = file.read_bytes()
+    strike = b'"ball": "red", "velocity": [9.0'
+    assert content.count(strike) == 1
+    file.write_bytes(content.replace(strike, strike.replace(b'9.0', b'9.4')))
+    with pytest.raises(BagError, match='entry 1 strike was changed'):
+        read_bag(path)
+
+
+@pytest.mark.parametrize('part', [0.0, 0.02, 0.5, 0.9, 0.999])
+def test_a_truncated_bag_is_refused_in_one_line(told, tmp_path, storage, part):
+    path = bag(tmp_path / 'bag', told, storage)
+    file, = (file for file in path.iterdir() if file.suffix != '.yaml')
+    content = file.read_bytes()
+    file.write_bytes(content[:int(part * len(content))])
+    with pytest.raises(BagError) as refusal:
+        read_bag(path)
+    assert '\n' not in str(refusal.value) and str(path) in str(refusal.value)
+
+
+def test_a_bag_without_metadata_a_file_and_nothing_are_refused(told, tmp_path):
+    path = bag(tmp_path / 'bag', told)
+    (path / 'metadata.yaml').unlink()
+    (tmp_path / 'file').write_text('no bag')
+    for name in ('bag', 'file', 'nothing'):
+        with pytest.raises(BagError, match=name):
+            read_bag(tmp_path / name)
+
+
+def test_a_foreign_bag_is_refused(tmp_path, storage):
+    told = [('/chatter', 'std_msgs/msg/String', 1, made('std_msgs/msg/String', data='hello'))]
+    with pytest.raises(BagError, match='no play'):
+        read_bag(bag(tmp_path / 'bag', told, storage))
+
+
+def test_a_journal_of_somebody_else_is_refused(tmp_path):
+    told = [('/journal', 'std_msgs/msg/String', 1, made('std_msgs/msg/String', data='dear diary'))]
+    with pytest.raises(BagError, match='dear diary'):
+        read_bag(bag(tmp_path / 'bag', told))
+
+
+def test_an_entry_comes_back_to_the_bit_and_is_never_not_a_number():
+    lines = []
+    journal = Journal(lines.append)
+    values = [0.1 + 0.2, pi * 1e-300, -0.0, 5e-324, 1.7976931348623157e308]
+    journal.note('wind', 7, wind=values)
+    journal.note('wind', 8, wind=values)
+    assert [opened(line)['entry'] for line in lines] == [0, 1]
+    entry = opened(lines[0])
+    assert list(entry)[:3] == ['entry', 'kind', 'tick'] and entry['tick'] == 7
+    assert [value.hex() for value in entry['wind']] == [value.hex() for value in values]
+    assert json.loads(lines[0])['wind'] == values
+    for bad in (float('nan'), float('inf')):
+        with pytest.raises(ValueError):
+            journal.note('wind', 9, wind=[bad])
+
+
+def test_any_changed_byte_of_an_entry_is_noticed():
+    line = sealed({'entry': 3, 'kind': 'strike', 'tick': 5, 'velocity': list(PITCH)})
+    for i, letter in enumerate(line):
+        with pytest.raises(JournalError):
+            opened(line[:i] + chr(ord(letter) ^ 1) + line[i + 1:])
