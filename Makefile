@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 #
-# make play    three shots over ROS 2: a drive, an approach, a putt
+# make play    three shots over ROS 2: a drive, an approach, a putt; play/ keeps the recording and a picture
 # make sim     the simulator and the wind, until Ctrl-C
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A drive, an approach and a putt over ROS 2, each hit with `shoot`: what ``make play`` does."""
+"""A drive, an approach and a putt over ROS 2, each hit with `shoot`, recorded and drawn: ``make play``."""
 
 import json
 from math import sqrt
 import os
+from pathlib import Path
+import shutil
 import subprocess
 import sys
 
@@ -17,6 +19,8 @@ from running import BIN, Failed, nodes, Spectator
 
 GRAVITY = 9.80665       # m/s2
 LONGEST = 360.0         # s: a shot lasts 300 s at most
+LEFT = Path(__file__).resolve().parent.parent / 'play'    # what is left of the play
+BAG, PICTURE = LEFT / 'bag', LEFT / 'play.png'
 BEYOND = 0.3            # m: a putt that dies at the hole falls short of it half of the time
 
 
@@ -24,12 +28,14 @@ def main():
     """Play; the exit code is 0 when all three shots came to an end."""
     complete_environment()
     keep_to_ourselves()
+    clear()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     try:
-        with nodes() as processes:
+        with nodes(('record_play', '--output', BAG, '--balls', 'ball')) as processes:
             spectator = Spectator(processes)
             spectator.wait_for_ball()
             summarize(play(spectator))
+        draw()
     except Failed as failure:
         print(f'play: {failure}', file=sys.stderr)
         return 1
@@ -45,6 +51,21 @@ def keep_to_ourselves():
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 100))
     print(f'Playing on ROS_DOMAIN_ID={os.environ["ROS_DOMAIN_ID"]}', flush=True)
+
+
+def clear():
+    """Make room for what will be left of this play, in place of the one before."""
+    LEFT.mkdir(exist_ok=True)
+    shutil.rmtree(BAG, ignore_errors=True)
+    PICTURE.unlink(missing_ok=True)
+
+
+def draw():
+    """Draw what was recorded."""
+    code = subprocess.call([BIN / 'plot_play', BAG, '--output', PICTURE])
+    if code != 0:
+        raise Failed(f'the play was not drawn, exit code {code}')
+    print(f'{BAG}: the recording; `resimulate` plays it again')
 
 
 def play(spectator):

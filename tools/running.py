@@ -26,14 +26,17 @@ class Failed(RuntimeError):
 
 
 @contextmanager
-def nodes():
-    """The processes of `NODES` by name; they are told to stop at the end, and must end with exit code 0."""
+def nodes(*more):
+    """The processes of `NODES` by name; they are told to stop at the end, and must end with exit code 0.
+
+    `more` are further commands, sequences of a program's name and its arguments. They are stopped last.
+    """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     processes = {}
     try:
-        for name in NODES:
-            processes[name] = subprocess.Popen([BIN / name])
+        for name, *arguments in (*((name,) for name in NODES), *more):
+            processes[name] = subprocess.Popen([BIN / name, *arguments])
         yield processes
     finally:
         codes = {name: stopped(process) for name, process in processes.items()}

@@ -3,6 +3,7 @@
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.ticker import MaxNLocator
 
 from ..physics.model import materials
 from . import table, wind
@@ -105,6 +106,7 @@ def at_hole(axes, box, shots, course, near, dpi):
     """Draw the surroundings of the hole."""
     above(axes, shots, course, near, box[2:], round(CHARTS * dpi))
     bare(axes, 'At the hole', 'x [m]', '')
+    axes.xaxis.set_major_locator(MaxNLocator(4))
 
 
 def drawn_like(axes, height, course, numbers):

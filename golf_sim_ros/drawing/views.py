@@ -22,7 +22,7 @@ def above(axes, shots, course, window, size, pixels):
     if course:
         furniture(axes, course)
     axes.set(xlim=(window.left, window.right), ylim=(window.low, window.high))
-    number(axes, shots, [shot.positions[-1, :2] for shot in shots], window.width / size[0])
+    number(axes, shots, course and course.hole, window.width / size[0])
     return seen
 
 
@@ -50,11 +50,18 @@ def ends(axes, shots, axis):
                   markeredgecolor='white', markeredgewidth=0.9, zorder=8)
 
 
-def number(axes, shots, places, scale):
-    """Write the shots' numbers at `places`, where there is room; an inch is `scale` metres."""
+def number(axes, shots, hole, scale):
+    """Write the shots' numbers at their ends, where there is room; an inch is `scale` metres.
+
+    They stand to the right, or to the left where the picture ends or the flag is in the way.
+    """
+    places = np.array([shot.positions[-1, :2] for shot in shots])
     edge = axes.get_xlim()[1] - ROOM * scale
-    for i in legible([np.asarray(place) / scale for place in places], APART):
-        side = {'xytext': (-5, 5), 'ha': 'right'} if places[i][0] > edge else {'xytext': (5, 5)}
+    flag_place = np.array(hole or (np.inf, np.inf)) - (0.0, 0.5 * ROOM * scale)
+    for i in legible(places / scale, APART):
+        ahead, above_it = (flag_place - places[i]) / scale
+        left = places[i][0] > edge or 0.0 <= ahead < 1.3 * ROOM and abs(above_it) < 1.3 * ROOM
+        side = {'xytext': (-5, 5), 'ha': 'right'} if left else {'xytext': (5, 5)}
         text = axes.annotate(str(shots[i].result.shot), places[i], **side, textcoords='offset points',
                              fontsize=SMALL, fontweight='bold', color=colors(len(shots))[i], zorder=9,
                              annotation_clip=True)
