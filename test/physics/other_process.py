@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Functions of test modules run in another process, compiled or in plain Python.
+
+Plain Python needs no compiling, so it can try many combinations of effects and integrators, and
+what is registered there is not left behind here.
+"""
+import json
+import os
+from pathlib import Path
+import subprocess
+import sys
+
+import numpy as np
+
+import golf_sim_ros
+
+RUN = """
+import importlib, json, sys
+module, function, arguments = json.loads(sys.argv[1])
+result = getattr(importlib.import_module(module), function)(*arguments)
+print(json.dumps(result, default=lambda array: array.tolist()))
+"""
+
+
+def run(function, *arguments, plain=True):
+    """What `function`, of a test module, returns in a process of its own; numbers keep all their digits."""
+    folders = (Path(golf_sim_ros.__file__).parents[1], Path(__file__).parent, Path(__file__).parents[1])
+    env = dict(os.environ, PYTHONPATH=os.pathsep.join([*map(str, folders), os.environ.get('PYTHONPATH', '')]))
+    if plain:
+        env['NUMBA_DISABLE_JIT'] = '1'
+    call = json.dumps([function.__module__, function.__name__, arguments], default=np.ndarray.tolist)
+    done = subprocess.run([sys.executable, '-c', RUN, call], env=env, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout.splitlines()[-1])

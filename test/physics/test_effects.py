@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The contract of every registered effect: documented, finite, repeatable; absent is the same as off."""
+from itertools import product
+from math import isfinite
+
+from driving_range import HARD, TURF, level
+from golf_sim_ros.physics import ACCURACY, EFFECTS, Air, Shot, World, register_effect, simulate
+from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, pull
+from golf_sim_ros.physics.model import build
+import numpy as np
+from other_process import run
+import pytest
+
+NO_AIR = Air(pressure=0.0, relative_humidity=0.0)
+SCENES = {
+    'calm turf': Scene(level(TURF)),
+    'hard ground': Scene(level(HARD)),
+    'no air': Scene(level(HARD, air=NO_AIR)),
+    'wind': Scene(level(TURF), wind=(4.0, -3.0, 0.5)),
+}
+SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
+effects = pytest.mark.parametrize('name', EFFECTS)
+# The others are left out because one is better, not because they would do nothing.
+AUTOMATIC = [name for name in EFFECTS if 'request' not in EFFECTS[name].idle(SCENES['wind'])]
+
+
+def types_differ():
+    """Whether each effect's record is of a type of its own."""
+    kinds = [type(effect.record(SCENES['wind'])) for effect in EFFECTS.values()]
+    return len(set(kinds)) == len(kinds)
+
+
+def test_the_contract_knows_the_effects_of_the_interface():
+    assert {'gravity', 'drag', 'magnus', 'spin_decay', 'wind', 'turf', 'linear_drag'} <= set(EFFECTS)
+    assert types_differ()
+
+
+@effects
+def test_an_effect_is_documented(name):
+    record = EFFECTS[name].record(SCENES['wind'])
+    assert EFFECTS[name].doc.endswith('.') and len(EFFECTS[name].doc) > 20 and '\n' not in EFFECTS[name].doc
+    doc = type(record).__doc__
+    assert not doc.startswith(type(record).__name__ + '('), 'has the docstring of a NamedTuple only'
+
+
+@effects
+def test_an_effect_is_a_record_of_finite_numbers(name):
+    for scene in SCENES.values():
+        for field in EFFECTS[name].record(scene):
+            assert np.isfinite(field).all()
+
+
+@pytest.fixture(scope='module')
+def told():
+    """What each effect says, differs by, and changes where auto leaves it out; from two processes."""
+    return run(findings), run(findings)
+
+
+def findings():
+    """All of that, by name."""
+    return {name: {'answers': answers(name), 'difference': difference(name),
+                   'ends': ends_without_and_with(name)} for name in EFFECTS}
+
+
+@effects
+def test_an_effect_is_finite_and_repeatable(name, told):
+    once, again = (process[name]['answers'] for process in told)
+    assert once == again
+    assert all(isfinite(number) for answer in once for vector in answer for number in vector)
+    for *_, normal in once:
+        assert np.linalg.norm(normal) == pytest.approx(1.0, abs=1e-12)
+
+
+def answers(name):
+    """What an effect alone says of many states, extreme ones too: acceleration, spin rate, pull, normal."""
+    told = []
+    speeds = ((0, 0, 0), (1e-9, 0, 0), (0.1, 0, -0.1), (70, 3, 14), (0, 0, -30), (0, 0, 30), (150, 0, 0))
+    spins = ((0, 0, 0), (1e-9, 0, 0), (0, -280, 0), (2500, 0, 0), (3, 4, -1000))
+    for scene in SCENES.values():
+        model = build(scene.course, [EFFECTS[name].record(scene)], ACCURACY['standard'])
+        for velocity, spin, height in product(speeds, spins, (0.021335, 40.0)):
+            place = (1.0, 2.0, height)
+            velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))
+            rates = flight_rates(model.effects, model.land.ground, place, velocity, spin)
+            told.append((*rates, pull(model.land.effects, place),
+                         felt_normal(model.land.effects, (0.0, 0.0, 1.0), velocity, 1.0)))
+    return told
+
+
+@pytest.mark.parametrize('scene', SCENES)
+def test_auto_gives_each_effect_or_a_reason(scene):
+    on, off = choose('auto', SCENES[scene])
+    assert list(sorted([*on, *off])) == sorted(EFFECTS)
+    assert all(reason and '\n' not in reason for reason in off.values())
+    assert 'gravity' in on
+
+
+def test_auto_leaves_out_what_the_scene_has_no_cause_for():
+    off = {scene: choose('auto', SCENES[scene])[1] for scene in SCENES}
+    assert off['calm turf'].keys() == {'wind', 'linear_drag'}
+    assert off['hard ground'].keys() == {'wind', 'linear_drag', 'turf'}
+    assert off['wind'].keys() == {'linear_drag'}
+    assert off['no air'].keys() >= {'drag', 'magnus', 'spin_decay', 'turf', 'wind'}
+    assert off['no air']['drag'] == 'no air' and off['calm turf']['wind'] == 'no wind'
+    assert off['hard ground']['turf'] == 'all ground is hard'
+
+
+@pytest.mark.parametrize('name', AUTOMATIC)
+def test_an_effect_that_auto_leaves_out_would_change_nothing(name, told):
+    for absent, present in told[0][name]['ends']:
+        assert absent == present
+
+
+def ends_without_and_with(name):
+    """Ends of a shot by auto and by auto with `name`, in all scenes where auto leaves it out."""
+    pairs = []
+    for scene in SCENES.values():
+        on, off = choose('auto', scene)
+        if name in off:
+            pairs.append([end(scene, effects) for effects in ('auto', (*on, name))])
+    return pairs
+
+
+def end(scene, names):
+    """Figures of a shot's end."""
+    play = simulate(scene.course, SHOT, wind=scene.wind, effects=names, rate=10.0)
+    told = play.result
+    return [*told.position, told.carry, told.apex, told.duration, *play.spins[-2]]
+
+
+@effects
+def test_an_effect_that_is_on_matters(name, told):
+    assert told[0][name]['difference'] > 0.01
+
+
+def difference(name):
+    """By how much [m] a shot in the wind would come to rest elsewhere, or come down, without an effect."""
+    scene = SCENES['wind']
+    others = [other for other in choose('auto', scene)[0] if other != name]
+    places = []
+    for names in ((*others, name), others):
+        world = World(scene.course, wind=scene.wind, effects=names)
+        world.strike('ball', *SHOT)
+        world.advance(30.0)
+        places.append(world['ball'].position)
+    return float(np.linalg.norm(np.subtract(*places)))
+
+
+def test_the_order_of_the_names_does_not_matter():
+    ends = run(ends_in_orders)
+    assert ends[0] == ends[1]
+
+
+def ends_in_orders():
+    """Ends of a shot with the same effects named in two orders."""
+    names = ('gravity', 'drag', 'magnus')
+    return [end(SCENES['calm turf'], order) for order in (names, names[::-1])]
+
+
+def test_effects_not_asked_for_are_off_and_say_so():
+    on, off = choose(('gravity', 'drag'), SCENES['wind'])
+    assert on.keys() == {'gravity', 'drag'}
+    assert set(off.values()) == {'not asked for'}
+
+
+def test_an_unknown_effect_is_named_with_the_known_ones():
+    with pytest.raises(ValueError, match="'rain' is unknown; known: auto, drag, gravity"):
+        World(level(TURF), effects=('gravity', 'rain'))
+
+
+def test_a_name_is_given_only_once():
+    with pytest.raises(ValueError, match="'drag' is already registered"):
+        register_effect('drag', None, None, '')
+
+
+def test_another_package_can_add_an_effect():
+    plain, heavier = run(ends_with_down_draught)
+    assert heavier[3] < plain[3] - 1  # carry
+
+
+def ends_with_down_draught():
+    """Ends of a shot without and with an effect that another package registers."""
+    from golf_sim_ros.physics.effects import laws
+    from typing import NamedTuple
+
+    class DownDraught(NamedTuple):
+        push: float = 1.0
+
+    laws.acceleration.register(DownDraught)(lambda effect, flow: (0.0, 0.0, -effect.push))
+    register_effect('down_draught', lambda scene: DownDraught(), lambda scene: '', 'Pushes down.')
+    return [end(SCENES['calm turf'], ('gravity', *more)) for more in ((), ('down_draught',))]

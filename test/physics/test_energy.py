@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Laws that hold for every shot: it ends, on the ground and not in it, and in still air it gains no energy."""
+import os
+
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+import numpy as np
+import pytest
+
+from golf_sim_ros.course import load_course
+from golf_sim_ros.physics import (Course, LogProfile, Material, Patch, Phase, Plane, Restitution, Result, World,
+                                  ground_height, simulate_many)
+from scene import depth, energy, touches
+
+SHOTS = int(os.environ.get('RANDOM_SHOTS', 1000))  # 10000 for the whole lot
+WATCHED = SHOTS // 10  # of them, tick by tick
+TICK = 0.02  # s
+LIFT = 2e-5  # J/kg: what putting a ball exactly on its surface, 1e-6 m higher at most, may give it
+RELATIVE = 1e-9  # an event
+ROUGH = Material('rough', Restitution(0.5), 0.0, 0.4, 0.3, 0.1, 0.002)
+IDEAL = Material('ideal', Restitution(1.0))
+STILL = ('gravity',)
+
+
+def directions(random, count):
+    """Unit vectors, evenly over the sphere."""
+    arrows = random.normal(size=(count, 3))
+    return arrows / np.linalg.norm(arrows, axis=1)[:, np.newaxis]
+
+
+def shots(count, seed):
+    """Velocities to 120 m/s and spins to 1000 rad/s in any direction."""
+    random = np.random.default_rng(seed)
+    return (random.uniform(0, 120, (count, 1)) * directions(random, count),
+            random.uniform(0, 1000, (count, 1)) * directions(random, count))
+
+
+@pytest.fixture(scope='module')
+def links():
+    """The course that the package ships."""
+    return load_course('golf_without_friends')
+
+
+def watch(world, name='ball', tick=TICK):
+    """Play to the end, with an eye on the ball at every tick; return what happened."""
+    told, last = [], energy(world.course, world[name])
+    while world.moving:
+        events = world.advance(tick)
+        told += events
+        if any(isinstance(event, Result) and event.status == 'out_of_bounds' for event in events):
+            break
+        ball = world[name]
+        now = energy(world.course, ball)
+        assert np.isfinite((*ball.position, *ball.velocity, *ball.spin)).all(), (world.time, ball)
+        assert depth(world.course, ball.position) < 2e-6, (world.time, ball)
+        assert now <= last + RELATIVE * abs(last) * (1 + len(events)) + LIFT, (world.time, now - last, ball)
+        last = now
+    return told
+
+
+@pytest.mark.parametrize('velocity, spin', [((0, 0, 0), (0, 0, 0)), ((3, -2, 1), (100, 200, 300))])
+def test_an_ideal_ball_bounces_for_60_s_without_losing_or_gaining_energy(velocity, spin):
+    course = Course((Plane(material=IDEAL),), effects=STILL)
+    world = World(course)
+    world.place('ball', (0, 0, 2), velocity, spin)
+    begin = energy(course, world['ball'])
+    for _ in range(600):
+        world.advance(0.1)
+        assert abs(energy(course, world['ball']) / begin - 1) < 1e-10, world.time
+    assert world.time == pytest.approx(60)
+
+
+def test_random_shots_end_on_the_ground(links):
+    velocities, spins = shots(SHOTS, 1)
+    ended = simulate_many(links, velocities, spins)
+    assert set(ended['status']) <= {'at_rest', 'out_of_bounds'}
+    for i, position in enumerate(ended['position']):
+        height, _ = ground_height(links, *position[:2])
+        assert position[2] - height >= links.ball.radius - 1e-6, i
+        assert depth(links, position) < 2e-6 and touches(links, position), i
+
+
+def test_random_shots_stay_out_of_the_ground_and_gain_no_energy(links):
+    for velocity, spin in zip(*shots(WATCHED, 2)):
+        world = World(links)
+        world.strike('ball', velocity, spin)
+        result = watch(world)[-1]
+        assert result.status in ('at_rest', 'out_of_bounds'), (velocity, spin)
+
+
+def numbers(low, high):
+    return st.floats(low, high, allow_subnormal=False)
+
+
+def vectors(most):
+    return st.tuples(*3 * [numbers(-most, most)])
+
+
+materials = st.builds(
+    Material, st.just('any'), st.builds(Restitution, numbers(0, 1)), numbers(-1, 1), numbers(0, 2), numbers(0, 2),
+    numbers(0.01, 2), numbers(0.0, 0.01))
+patches = st.builds(
+    Patch, st.tuples(numbers(-3, 3), numbers(-3, 3), numbers(0, 1)),
+    vectors(1).filter(lambda n: np.linalg.norm(n) > 0.1).map(lambda n: tuple(np.array(n) / np.linalg.norm(n))),
+    numbers(-3, 3), numbers(0.01, 5), numbers(0.01, 5), materials)
+
+
+@settings(max_examples=SHOTS // 20, deadline=None, derandomize=True, database=None,
+          suppress_health_check=list(HealthCheck))
+@given(st.lists(patches, max_size=6), vectors(20), vectors(300))
+def test_a_ball_among_patches_anyhow_comes_to_an_end_and_gains_no_energy(clutter, velocity, spin):
+    course = Course((Plane((0, 0, -1), material=ROUGH), *clutter), effects=STILL)
+    world = World(course)
+    try:
+        world.place('ball', (0.0, 0.0, 1.5), velocity, spin)
+    except ValueError:
+        return
+    watch(world)
+
+
+@settings(max_examples=SHOTS // 20, deadline=None, derandomize=True, database=None)
+@given(materials, vectors(60), vectors(1000))
+def test_a_shot_on_level_ground_of_any_material_ends_and_gains_no_energy(material, velocity, spin):
+    world = World(Course((Plane(material=material),)))
+    if not any((*velocity, *spin)):
+        return
+    world.strike('ball', velocity, spin)
+    watch(world)
+
+
+def test_wind_of_100_m_s_holds_a_ball_against_a_wall():
+    wall = Patch((5, 0, 5), (1, 0, 0), 0.0, 20, 20, ROUGH)
+    course = Course((Plane(material=ROUGH), wall), wind_profile=LogProfile())
+    world = World(course, wind=(100, 0, 0))
+    world.strike('ball', (10, 0, 10), (0, 0, 0))
+    while world.moving:
+        world.advance(TICK)
+        assert world['ball'].position[0] < 5 - course.ball.radius + 1e-6
+    assert touches(course, world['ball'].position)
+
+
+def test_wind_accuracy_and_place_may_change_in_mid_flight(links):
+    world = World(links)
+    world.strike('ball', (40, 0, 20), (0, -300, 0))
+    world.advance(0.503)
+    before = world['ball']
+    world.accuracy = 'reference'
+    world.set_wind((0, 0, 0))
+    assert world['ball'] == before
+    world.set_wind((5, 10, 0))
+    assert world['ball'] == before
+    world.advance(1e-9)
+    assert np.allclose(world['ball'].position, before.position, atol=1e-6)
+    world.advance(0.5)
+    world.accuracy = 'sketch'
+    world.set_wind((0, 0, 0))
+    told = watch(world)
+    assert told[-1].status == 'at_rest'
+
+
+def test_a_ball_placed_in_mid_flight_is_there_and_its_shot_is_forgotten(links):
+    world = World(links)
+    world.strike('ball', (40, 0, 20))
+    world.advance(0.5)
+    world.place('ball', (20, 3))
+    assert world['ball'].phase == Phase.REST and not world.moving
+    assert touches(links, world['ball'].position)
+    world.strike('ball', (10, 0, 5))
+    assert watch(world)[-1].status == 'at_rest'
+
+
+def test_a_ball_touching_the_ground_can_be_placed_and_a_deeper_one_cannot(links):
+    world = World(links)
+    x, y, z = world['ball'].position
+    world.place('ball', (x, y, z))
+    assert world['ball'].position == (x, y, z) and world['ball'].phase == Phase.REST
+    with pytest.raises(ValueError):
+        world.place('ball', (x, y, z - 1e-3))
+    assert world['ball'].position == (x, y, z)
+
+
+def test_several_balls_each_go_as_if_alone(links):
+    names = ('red', 'green', 'blue')
+    velocities, spins = shots(3, 5)
+    velocities = 0.3 * np.abs(velocities)
+    together = World(links, balls=names)
+    places = {name: together[name].position for name in names}
+    for name, velocity, spin in zip(names, velocities, spins):
+        together.strike(name, velocity, spin)
+    for _ in range(100):
+        together.advance(TICK)
+    for name, velocity, spin in zip(names, velocities, spins):
+        alone = World(links)
+        alone.place('ball', places[name])
+        alone.strike('ball', velocity, spin)
+        for _ in range(100):
+            alone.advance(TICK)
+        assert alone['ball'] == together[name]
+
+
+def test_a_shot_that_never_stops_ends_at_the_time_limit():
+    world = World(Course((Plane(material=IDEAL),), effects=STILL))
+    world.strike('ball', (1, 0, 1))
+    told = []
+    for _ in range(301):
+        told += world.advance(1.0)
+    result, = (event for event in told if isinstance(event, Result))
+    assert result.status == 'time_limit' and result.duration == pytest.approx(300) and not world.moving
