@@ -18,10 +18,10 @@ def main(args=None):
     """Run a bag's play again; return the exit code."""
     options = parser().parse_args(args)
     try:
-        plays = [play for play in read_bag(options.bag) if play.journal or not play.tracks]
-        if not any(shots(play) for play in plays):
+        plays = [play for play in read_bag(options.bag) if shots(play)]
+        if not plays:
             raise BagError(f'{options.bag}: no strike is in a journal: it cannot be run again')
-        return 0 if all([resimulated(play, options) for play in plays if shots(play)]) else 1
+        return 0 if all([resimulated(play, options) for play in plays]) else 1
     except BagError as error:
         print(f'resimulate: {" ".join(str(error).split())}', file=sys.stderr)
         return 1
