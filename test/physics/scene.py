@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a ball's place and motion on a course of planes and patches mean, worked out apart from the physics."""
+"""What a ball's place and motion on planes and patches mean, worked out apart from the physics."""
 from functools import lru_cache
 from math import cos, inf, sin
 from typing import NamedTuple
@@ -105,7 +105,7 @@ def gaps(course, point):
 
 
 def depth(course, point):
-    """How deep [m] a ball at `point` is in the ground, at least 0; it may pass a one-sided sheet from behind."""
+    """How deep [m] a ball at `point` is in the ground; it may pass a one-sided sheet from behind."""
     found, one_sided = gaps(course, point)
     return -min(0.0, *found[:len(found) - one_sided])
 

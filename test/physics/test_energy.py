@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laws that hold for every shot: it ends, on the ground and not in it, and in still air it gains no energy."""
+"""Laws that hold for every shot: it ends, on the ground, and in still air it gains no energy."""
 import os
 
 from hypothesis import HealthCheck, given, settings
@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import (Course, LogProfile, Material, Patch, Phase, Plane, Restitution, Result, World,
+from golf_sim_ros.physics import (Course, LogProfile, Material, Patch, Phase, Plane, Restitution, Result,
+                                  World,
                                   ground_height, simulate_many)
 from scene import depth, energy, touches
 
@@ -97,11 +98,13 @@ def vectors(most):
 
 
 materials = st.builds(
-    Material, st.just('any'), st.builds(Restitution, numbers(0, 1)), numbers(-1, 1), numbers(0, 2), numbers(0, 2),
+    Material, st.just('any'), st.builds(Restitution, numbers(0, 1)), numbers(-1, 1), numbers(0, 2),
+    numbers(0, 2),
     numbers(0.01, 2), numbers(0.0, 0.01))
 patches = st.builds(
     Patch, st.tuples(numbers(-3, 3), numbers(-3, 3), numbers(0, 1)),
-    vectors(1).filter(lambda n: np.linalg.norm(n) > 0.1).map(lambda n: tuple(np.array(n) / np.linalg.norm(n))),
+    vectors(1).filter(lambda n: np.linalg.norm(n) > 0.1).map(
+        lambda n: tuple(np.array(n) / np.linalg.norm(n))),
     numbers(-3, 3), numbers(0.01, 5), numbers(0.01, 5), materials)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Hard cases: each YAML file in hard_cases/ holds a course, and plays on it with their expected answers.
 
-A case puts the ball down (`place`, with `velocity` and `spin`), or strikes it as well (`strike`, with its `spin`),
+A case puts the ball down (`place`, with `velocity` and `spin`), or strikes it as well (`strike`, `spin`),
 and says how it `ends` once it stops, or at `until`; `first` is the first collision,
 `result` what is told of the shot; null is any number.
 `level`: the greatest vertical speed on the way [m/s]. Whatever a case says, its ball stays finite, out of the
