@@ -225,3 +225,11 @@ def test_json_of_the_journal_has_the_keys_of_a_strike(told):
                             'accuracy', 'wind', 'balls']
     assert list(strike['balls']) == ['red', 'blue']
     assert json.loads(sealed(strike)) == {**strike, 'crc32': json.loads(sealed(strike))['crc32']}
+
+
+def test_who_runs_it_again_on_something_else_is_told(told, tmp_path, capsys):
+    def older(entry):
+        entry['made_with']['physics'] = 'older'
+    path = bag(tmp_path / 'bag', changed(told, reseal('config', older), 'journal'))
+    assert main([str(path)]) == 0
+    assert 'note: physics older then, ' in capsys.readouterr().out
