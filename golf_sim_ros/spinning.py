@@ -73,9 +73,12 @@ def spin(node, ending):
     """Let `node` work until the `ending` is told, never stopping in the middle of a callback.
 
     `EventsExecutor` takes a fifth of the processor time; its `spin` without a timeout never calls
-    back in rclpy 7.1, `spin_once` does.
+    back in rclpy 7.1, `spin_once` does. On simulated time it may call a timer twice for one period,
+    and then skip the next: `UpdateTimers` of rclpy's timers_manager.cpp queues a timer anew at every
+    /clock that comes before its call.
     """
-    executor = EventsExecutor()
+    on_simulated_time = node.get_clock().ros_time_is_active
+    executor = SingleThreadedExecutor() if on_simulated_time else EventsExecutor()
     executor.add_node(node)
     while rclpy.ok() and not ending.told:
         executor.spin_once(timeout_sec=0.25)
