@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Nodes as processes, and clients in this one, over real DDS on a domain of this session's own."""
+from contextlib import ExitStack
 import os
 from pathlib import Path
 import socket
@@ -54,8 +55,9 @@ def start(domain):
         processes.append(Process(module, *arguments, environment=environment))
         return processes[-1]
     yield start
-    for process in processes:
-        process.stop()
+    with ExitStack() as stack:  # each is stopped, also where one does not obey
+        for process in processes:
+            stack.callback(process.stop)
 
 
 @pytest.fixture
