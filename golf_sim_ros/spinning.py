@@ -16,24 +16,27 @@ except ImportError:  # rclpy before Jazzy's 7.1.5
     EventsExecutor = SingleThreadedExecutor
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
+AGAIN = 0.2  # s after which an interruption that was not heard is repeated
 REFUSED = (ValueError, ParameterException)  # a wrong parameter or file
 
 
 class Ending:
     """Whether a signal has told this process to end (`told`).
 
-    While `at_once`, it also interrupts whatever goes on, a compilation say.
+    While `at_once`, it also interrupts whatever goes on, a compilation say. As a callback of the
+    compiler may swallow that, it is repeated until it has been heard.
     """
 
     def __init__(self):
         self.told, self.at_once = False, True
-        for number in SIGNALS:
+        for number in (*SIGNALS, signal.SIGALRM):
             signal.signal(number, self.tell)
 
     def tell(self, number, frame):
         """What a signal calls."""
         self.told = True
         if self.at_once:
+            signal.setitimer(signal.ITIMER_REAL, AGAIN)
             raise KeyboardInterrupt
 
 
@@ -53,6 +56,7 @@ def run(make_node, args=None):
         ending.at_once = False
         spin(node, ending)
     except BaseException:  # interrupted, a compiler may well raise something else
+        ending.at_once = False
         if not ending.told:
             raise
     finally:

@@ -7,7 +7,7 @@ slides as v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
 """
 from math import inf
 
-from ._compile import kernel
+from ._compile import kernel, shared
 from . import braked
 from .effects import pull
 from .ground import surface
@@ -51,7 +51,7 @@ def brake(material, press, downhill, inertia):
     return min(material['rolling_resistance'] * press, max(grip, 0.0))
 
 
-@kernel
+@shared
 def settle(land, ball, now):
     """Decide whether a ball in contact slides, rolls, pivots or rests. Writes phase and motion.
 
@@ -79,7 +79,7 @@ def settle(land, ball, now):
     put(ball['spin'], along(scale(1.0 / land.ball.radius, cross(normal, v)), turning, normal))
 
 
-@kernel
+@shared
 def flat_piece(land, ball, now):
     """Lay the next piece of sliding or rolling on a plane, up to a stop or as far as it is exact."""
     normal = vector(ball['normal'])
@@ -172,7 +172,7 @@ def lay_glide(land, ball, motion, coast, q, turning, unwinding):
          add(scale(1.0 / r, cross(normal, along(a1, -keep, du1))), winding)))
 
 
-@kernel
+@shared
 def bent_rates(land, ball, place, velocity, spin):
     """Acceleration, rate of spin and press of a ball that follows ground which is not flat.
 
@@ -213,7 +213,7 @@ def normal_rate(land, ball, place, velocity):
     return scale(1.0 / dt, sub(next_one, here))
 
 
-@kernel
+@shared
 def bent_piece(land, ball):
     """Lay a short piece around an edge by the midpoint rule; lift off where the press is gone."""
     x0 = vector(ball['position'])

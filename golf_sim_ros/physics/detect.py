@@ -11,7 +11,7 @@ it converges as fast, and can't tunnel.
 """
 from math import sqrt
 
-from ._compile import kernel
+from ._compile import kernel, shared
 from .ground import surface
 from .path import (corner, greatest_acceleration, least_acceleration, position, span_along, velocity)
 from .vector import add, along, dot, length, vector
@@ -99,7 +99,7 @@ def first_touch(ground, part, ball, radius, until):
     return time, False
 
 
-@kernel
+@shared
 def first_contact(ground, ball, radius, until, on):
     """First time at which the piece touches any part, which one, and whether it really does.
 
@@ -135,7 +135,7 @@ def first_contact(ground, ball, radius, until, on):
     return best, who, hit
 
 
-@kernel
+@shared
 def first_border(ground, ball, radius, until):
     """First time, at most `until`, at which the piece crosses a border in plan, and whether so.
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Landing and bouncing: what an impact with the ground does, and what comes after it."""
-from ._compile import kernel
+from ._compile import kernel, shared
 from .contact import STILL, settle, stand_on
 from .effects import felt_normal, pull
 from .ground import surface
@@ -21,7 +21,7 @@ MANY_STALLS = 20
 CAUGHT = 2e-3  # m/s: slower than this between two surfaces is at rest
 
 
-@kernel
+@shared
 def meet(land, ball, number, now, log):
     """Let the ball collide with its target. Writes motion, phase and contact; logs the impact."""
     place = vector(ball['position'])
@@ -115,6 +115,7 @@ def after_impact(land, ball, now, impact, normal):
             return
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
+    put(ball['normal'], normal)
 
 
 @kernel
@@ -128,7 +129,7 @@ def settle_speed(land, ball):
     return max(land.limits.settle / (1.0 + speed * speed * speed), LEAST_SETTLE)
 
 
-@kernel
+@shared
 def cross_border(land, ball, now):
     """Find out what the ball is on past a border in plan. Writes phase and contact."""
     velocity = vector(ball['velocity'])

@@ -3,7 +3,7 @@
 from math import inf
 
 from . import path
-from ._compile import entry, kernel
+from ._compile import entry, kernel, shared
 from .contact import STILL, bent_piece, flat_piece, settle, stand_on
 from .detect import IN_THE_AIR, ON_EDGE, ON_FLAT, first_border, first_contact
 from .ground import surface
@@ -53,7 +53,7 @@ def lay_next(model, ball, now):
         ball['ending'] = TIME_LIMIT
 
 
-@kernel
+@shared
 def lay_contact(model, ball, now):
     """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
     land = model.land

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import entry, kernel, literal_unroll
+from .._compile import entry, kernel, shared, literal_unroll
 from ..state import NO_PART
 from ..vector import along, dot
 from . import laws
@@ -59,7 +59,7 @@ def out_of_reach(ground, part, low, high):
     return result
 
 
-@kernel
+@shared
 def nearest(ground, part, point):
     """Distance of `point` from `part` and the unit vector from there to `point`."""
     distance = 1e300
@@ -72,7 +72,7 @@ def nearest(ground, part, point):
     return distance, normal
 
 
-@kernel
+@shared
 def touchable(ground, part, point):
     """Whether the surface exists where `part` is nearest to `point`, seen from there."""
     result = False
@@ -148,7 +148,7 @@ def in_bounds(ground, x, y):
     return len(ground.bounds.first) < 2 or inside(ground.bounds, 0, x, y)
 
 
-@kernel
+@shared
 def touched(ground, point, radius, ahead):
     """Part that a ball at `point` stands on, the latest of equals, and the normal there.
 

@@ -26,7 +26,7 @@ def _table(method):
 
 
 @runge_kutta.first_step.register(RungeKutta4)
-def _first_step(method):
+def _first_step(method, speed, hop):
     return method.length
 
 

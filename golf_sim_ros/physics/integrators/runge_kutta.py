@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """One step of flight, shared by all Runge-Kutta methods."""
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 
 from .._compile import generic, kernel
-from ..effects import flight_rates
+from ..effects import flight_rates, pull
 from ..path import lay
 from ..state import STEP
-from ..vector import along, put, vector
+from ..vector import along, dot, length, put, vector
 
 # What a wrong velocity or spin is worth in metres: it goes on for about a second, and 100 rad/s
 # bend a drive by about a metre in that time.
@@ -36,8 +36,8 @@ def error_weights(method):
 
 
 @generic
-def first_step(method):
-    """Length [s] of a flight's first step."""
+def first_step(method, speed, hop):
+    """Length [s] of the first step of a flight at `speed` that lands after about `hop` seconds."""
     return 0.01
 
 
@@ -101,13 +101,24 @@ def error_in_metres(ball, weights, h):
                 + SPIN_WEIGHT * SPIN_WEIGHT * (e[6] * e[6] + e[7] * e[7] + e[8] * e[8]))
 
 
+@kernel
+def hop(model, ball):
+    """About how long [s] a ball that has just left a surface stays off it: as without air."""
+    normal = vector(ball['normal'])
+    pressing = -dot(pull(model.effects, vector(ball['position'])), normal)
+    leaving = dot(vector(ball['velocity']), normal)
+    return 2.0 * leaving / pressing if pressing > 0.0 and leaving > 0.0 else inf
+
+
 @generic
 def step(method, model, ball):
     """Lay the next piece of flight: one step from the ball's state. Writes curve, span, step."""
     rows = table(method)
     weights = error_weights(method)
     last = len(rows) - 1
-    h = ball['step'] if ball['step'] > 0.0 else first_step(method)
+    h = ball['step']
+    if h == 0.0:
+        h = first_step(method, length(vector(ball['velocity'])), hop(model, ball))
     stage(model, ball, 0, state_after(ball, NO_CHANGE))
     while True:
         change = NO_CHANGE
