@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """All that `sim_node` publishes, with the qualities of service and why."""
+from time import monotonic
+
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
 from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
@@ -16,6 +19,7 @@ STREAM = QoSProfile(depth=10)  # reliable, volatile: only what is new counts
 POINTS = QoSProfile(depth=100)  # a bouncing ball makes many at once
 # Nothing of it may be missed: who joins late or loses the link for a while gets the last ones.
 EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+CLOCK_PERIOD = 0.01  # s of wall time at least
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -27,15 +31,17 @@ class Broadcast:
     node : rclpy.node.Node
         Who publishes. Simulated time begins now, on its clock.
     world : World
-    frame : str
-        Frame of every stamp.
+    given : Parameters
+        Tells the frame of every stamp, and whether simulated time itself is the stamp and on /clock.
     on_viewer, on_follower : callable
         Called when somebody subscribes to the course's markers, or to a ball.
     """
 
-    def __init__(self, node, world, frame, on_viewer, on_follower):
-        self.node, self.world, self.frame = node, world, frame
-        self.began = node.get_clock().now().nanoseconds
+    def __init__(self, node, world, given, on_viewer, on_follower):
+        self.node, self.world, self.frame = node, world, given.frame_id
+        self.began = 0 if given.publish_clock else node.get_clock().now().nanoseconds
+        self.clock = node.create_publisher(Clock, '/clock', STREAM) if given.publish_clock else None
+        self.next_clock = monotonic()
         self.scene = Scene(world)
         self.config, self.entries_since = '', 0
         self.open_balls(on_match(on_follower))
@@ -59,6 +65,13 @@ class Broadcast:
     def head(self, time):
         """Header of a message about simulated `time`."""
         return messages.header(self.frame, self.began, time)
+
+    def tell_time(self):
+        """Simulated time on /clock, where that is wanted, and not too often."""
+        now = monotonic()
+        if self.clock and now >= self.next_clock:
+            self.next_clock = now + CLOCK_PERIOD
+            self.clock.publish(Clock(clock=self.head(self.world.time).stamp))
 
     def tell_ball(self, name, orientation):
         """Pose and twist of a ball."""

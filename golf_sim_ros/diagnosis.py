@@ -10,16 +10,9 @@ SLOW = 0.95  # simulated seconds a wall second; below this a viewer notices
 
 
 class Diagnosis:
-    """Figures gathered while the simulation runs.
+    """Figures gathered while the simulation runs."""
 
-    Parameters
-    ----------
-    ticks : float
-        Ticks that one call of the timer asks for when it is in time.
-    """
-
-    def __init__(self, ticks):
-        self.usual = ceil(ticks)
+    def __init__(self):
         self.durations = deque([0.0], maxlen=1000)
         self.made_up = 0
         self.wind_came = None
@@ -30,9 +23,9 @@ class Diagnosis:
         """Note that a wind came."""
         self.wind_came = monotonic()
 
-    def count(self, ticks):
-        """Note that the timer did `ticks`."""
-        self.made_up += max(0, ticks - self.usual)
+    def count(self, ticks, usual):
+        """Note that a step did `ticks` where in time it would do `usual`."""
+        self.made_up += max(0, ticks - ceil(usual))
 
     def mark(self, time):
         """Note that it is now simulated `time` [s]: the real-time factor is that since the last mark."""

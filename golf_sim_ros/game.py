@@ -12,6 +12,8 @@ from .physics import Phase, Rejected, Result
 MOVING = (Phase.FLIGHT, Phase.SLIDE, Phase.ROLL)
 CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
 REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
+BUSY = 0.8  # of the time between steps goes to simulating as fast as it can
+LONGEST_BUSY = 0.1  # s without hearing anything
 SCENE_RATE = 10.0  # play markers a second: they are large, and eyes are slow
 
 
@@ -27,16 +29,19 @@ class Game:
         Where it is told what was not done.
     log : rclpy.impl.rcutils_logger.RcutilsLogger
         Where shots are told to people.
-    rate, publish_rate : float
-        Ticks, and steps, a second.
+    given : Parameters
+        Its rates are those of ticks and of steps.
     """
 
-    def __init__(self, world, broadcast, refusals, log, rate, publish_rate):
+    def __init__(self, world, broadcast, refusals, log, given):
         self.world, self.broadcast, self.refusals, self.log = world, broadcast, refusals, log
-        self.pace = Pace(1.0 / rate)
+        self.pace = Pace(1.0 / given.rate, max(1, round(given.rate / given.publish_rate)),
+                         given.real_time_factor)
+        self.busy = min(BUSY / given.publish_rate, LONGEST_BUSY)
+        self.keeps_time = given.publish_clock
         self.journal, self.ticks = Journal(broadcast.tell_entry), 0
-        self.diagnosis = Diagnosis(rate / publish_rate)
-        self.steps_a_scene = max(1, round(publish_rate / SCENE_RATE))
+        self.diagnosis = Diagnosis()
+        self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
         self.playing = {}  # number of the strike that a ball plays
         self.inputs = []
@@ -49,7 +54,9 @@ class Game:
     @property
     def asleep(self):
         """Whether nothing changes until something arrives."""
-        return self.paused or not self.world.moving
+        if self.paused or self.pace.hurries:
+            return self.paused or not self.world.moving
+        return not self.world.moving and not self.keeps_time
 
     def step(self):
         """Let the time pass that has passed on the clock, apply what arrived, tell."""
@@ -59,16 +66,25 @@ class Game:
         self.tell()
 
     def advance(self):
-        """Advance by as many whole ticks as are due."""
+        """Advance by as many whole ticks as are due; where they are many, tell in between."""
         if self.paused:
             self.pace.skip()
             return
         moving = self.world.moving
-        ticks = self.pace.due(CATCH_UP if moving else REST_CATCH_UP)
-        for _ in range(ticks):
-            self.tick()
-        if moving:
-            self.diagnosis.count(ticks)
+        if self.pace.hurries and not moving:
+            self.pace.skip()
+            return
+        done = 0
+        for ticks in self.pace.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
+            if done:
+                self.tell_balls()
+            for _ in range(ticks):
+                self.tick()
+            done += ticks
+            if self.pace.hurries and not self.world.moving:
+                break
+        if moving and not self.pace.hurries:
+            self.diagnosis.count(done, self.pace.usual * self.pace.factor)
 
     def tick(self):
         """Advance by one tick and tell what happened in it."""
@@ -150,31 +166,44 @@ class Game:
         if self.world.moving:
             self.journal.note('accuracy', self.ticks, accuracy=accuracy)
 
+    def pass_at(self, factor):
+        """Let time pass `factor` times as fast as the clock from now on."""
+        self.advance()
+        self.pace.factor = factor
+
     def moving(self):
         """Names of the balls that move."""
         return [name for name in self.world.names if self.world[name].phase in MOVING]
 
     def tell(self):
         """Balls that move or have just stopped; everything that somebody waits for."""
+        scene_due = self.scene_due()
+        self.tell_balls()
+        if scene_due:
+            self.broadcast.tell_scene(self.blowing)
+        if self.course_due:
+            self.broadcast.tell_course()
+        self.course_due = False
+
+    def tell_balls(self):
+        """Balls that move or have just stopped, or all that are due, and the time."""
         moving = set(self.moving())
+        self.broadcast.tell_time()
         for name in self.world.names if self.all_due else moving | self.awake:
             self.broadcast.tell_ball(name, self.orientations[name])
         for name in moving:
             self.broadcast.scene.trails[name].add(self.world[name].position)
-        if self.scene_due(moving):
-            self.broadcast.tell_scene(self.blowing)
-        if self.course_due:
-            self.broadcast.tell_course()
-        self.all_due = self.course_due = False
         self.awake = moving
+        self.all_due = False
 
-    def scene_due(self, moving):
-        """Whether the markers are due: seldom, but always where `moving` ends."""
+    def scene_due(self):
+        """Whether the markers are due: seldom, but always where balls stop."""
         self.steps += 1
+        moving = set(self.moving())
         return self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
 
     def diagnose(self):
         """Tell how well simulated time keeps up with the clock."""
         self.diagnosis.mark(self.world.time)
-        slow = self.diagnosis.factor < SLOW and not self.paused
+        slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.paused
         self.broadcast.tell_diagnosis(slow, self.diagnosis.values(self.world, self.pace.lost))

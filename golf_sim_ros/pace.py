@@ -14,13 +14,39 @@ class Pace:
     ----------
     tick : float
         Length of a tick [s].
+    usual : int
+        Ticks from one telling to the next.
+    factor : float
+        Simulated seconds a wall second; 0: as fast as it can. May be set.
     """
 
-    def __init__(self, tick):
-        self.tick = tick
+    def __init__(self, tick, usual, factor=1.0):
+        self.tick, self.usual, self.factor = tick, usual, factor
         self.seen = monotonic()
         self.saved = 0.0
         self.lost = 0.0
+
+    @property
+    def hurries(self):
+        """Whether time passes as fast as it can."""
+        return self.factor == 0.0
+
+    def portions(self, limit, busy):
+        """Ticks to do now, in portions after each of which it is time to tell what happened.
+
+        At most `limit` [s] of wall time count; who hurries goes on for `busy` [s] of it.
+        """
+        if self.hurries:
+            until = monotonic() + busy
+            self.skip()
+            while monotonic() < until:
+                yield self.usual
+            return
+        ticks = self.due(limit)
+        while ticks >= 2 * self.usual:
+            yield self.usual
+            ticks -= self.usual
+        yield ticks
 
     def due(self, limit):
         """Ticks to do now; at most `limit` [s] of wall time count."""
@@ -28,7 +54,7 @@ class Pace:
         elapsed = now - self.seen
         self.seen = now
         self.lost += max(0.0, elapsed - limit)
-        self.saved += min(elapsed, limit)
+        self.saved += min(elapsed, limit) * self.factor
         ticks = int(self.saved / self.tick)
         self.saved -= ticks * self.tick
         return ticks

@@ -13,23 +13,30 @@ class Parameters(NamedTuple):
     course: str = 'golf_without_friends'
     rate: float = 250.0
     publish_rate: float = 50.0
+    real_time_factor: float = 1.0
     accuracy: str = 'standard'
     effects: tuple = ('auto',)
     balls: tuple = ('ball',)
     frame_id: str = 'course'
+    publish_clock: bool = False
 
 
 MEANING = {
     'course': 'name of a shipped course, or path of a course file',
     'rate': 'physics ticks a second of simulated time',
     'publish_rate': 'pose and twist messages a second while a ball moves; at most rate',
+    'real_time_factor': 'simulated seconds a wall second, from 0.1; 0: as fast as it can, and time stands '
+                        'still while every ball rests; may be changed while running',
     'accuracy': f'one of {", ".join(ACCURACY)}; may be changed while running',
     'effects': "effects to simulate, or ['auto']: just those that the scene calls for",
     'balls': 'names of the balls; the first one is in play',
     'frame_id': 'frame of every stamp, and the frame in which inputs are understood',
+    'publish_clock': 'whether to publish simulated time on /clock, and to stamp with it',
 }
-RANGE = {'rate': (10.0, 10000.0), 'publish_rate': (1.0, 1000.0)}
-LIVE = ('accuracy',)
+RANGE = {'rate': (10.0, 10000.0), 'publish_rate': (1.0, 1000.0), 'real_time_factor': (0.0, 100.0)}
+LIVE = ('accuracy', 'real_time_factor')
+SLOWEST = 0.1  # real-time factor
+OWN_TIME = 'this node makes simulated time; to follow it itself, it must publish_clock'
 
 
 def declared(node):
@@ -38,9 +45,16 @@ def declared(node):
     values = Parameters(**values)
     if values.publish_rate > values.rate:
         raise ValueError(f'publish_rate {values.publish_rate:g} must be at most rate, {values.rate:g}')
-    if node.get_parameter('use_sim_time').value:
-        raise ValueError('use_sim_time must be false: this node makes simulated time, it does not follow it')
+    if node.get_parameter('use_sim_time').value and not values.publish_clock:
+        raise ValueError(f'use_sim_time must be false: {OWN_TIME}')
+    if 0.0 < values.real_time_factor < SLOWEST:
+        raise ValueError(too_slow(values.real_time_factor))
     return values
+
+
+def too_slow(factor):
+    """Why a real-time `factor` is refused."""
+    return f'real_time_factor {factor:g} must be 0, as fast as it can, or at least {SLOWEST:g}'
 
 
 def declare(node, name, default):
@@ -53,12 +67,21 @@ def declare(node, name, default):
     return tuple(value) if isinstance(default, tuple) else value
 
 
-def checked(parameters):
+def checked(publishes_clock, parameters):
     """Whether `parameters` may be set while the node runs, and why not."""
     for parameter in parameters:
-        if parameter.name == 'accuracy' and parameter.value not in ACCURACY:
-            reason = f'accuracy {parameter.value!r} is unknown; known: {", ".join(ACCURACY)}'
+        reason = objection(publishes_clock, parameter.name, parameter.value)
+        if reason:
             return SetParametersResult(successful=False, reason=reason)
-        if parameter.name == 'use_sim_time' and parameter.value:
-            return SetParametersResult(successful=False, reason='this node makes simulated time')
     return SetParametersResult(successful=True)
+
+
+def objection(publishes_clock, name, value):
+    """Why the parameter `name` can't become `value`, or ''."""
+    if name == 'accuracy' and value not in ACCURACY:
+        return f'accuracy {value!r} is unknown; known: {", ".join(ACCURACY)}'
+    if name == 'real_time_factor' and 0.0 < value < SLOWEST:
+        return too_slow(value)
+    if name == 'use_sim_time' and value and not publishes_clock:
+        return OWN_TIME
+    return ''

@@ -51,11 +51,10 @@ class SimNode(Node):
         given = declared(self)
         self.world = self.new_world(given)
         self.frame, self.refusals = given.frame_id, Refusals(self.get_logger())
-        broadcast = Broadcast(self, self.world, given.frame_id, self.on_viewer, self.on_follower)
-        self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given.rate,
-                         given.publish_rate)
+        broadcast = Broadcast(self, self.world, given, self.on_viewer, self.on_follower)
+        self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given)
         self.game.journal.config(self.world, given._asdict(), broadcast.began)
-        self.subscribe()
+        self.subscribe(given)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
         self.beat = self.create_timer(1.0, self.on_beat, clock=steady)
@@ -75,7 +74,7 @@ class SimNode(Node):
         self.get_logger().info(f'physics loaded in {perf_counter() - began:.1f} s')
         return world
 
-    def subscribe(self):
+    def subscribe(self, given):
         """Open the ways in: topics, services, live parameters."""
         first = self.world.names[0]
         self.strikes = self.create_subscription(Twist, 'shot', partial(self.on_shot, first), COMMANDS)
@@ -85,7 +84,7 @@ class SimNode(Node):
         self.create_subscription(Vector3Stamped, 'wind', self.on_wind, NEWEST)
         self.create_service(Trigger, '~/reset', self.on_reset)
         self.create_service(SetBool, '~/pause', self.on_pause)
-        self.add_on_set_parameters_callback(checked)
+        self.add_on_set_parameters_callback(partial(checked, given.publish_clock))
         self.add_post_set_parameters_callback(self.on_parameters)
 
     def introduce(self):
@@ -157,6 +156,9 @@ class SimNode(Node):
         for parameter in parameters:
             if parameter.name == 'accuracy':
                 self.game.be_exact(parameter.value)
+            elif parameter.name == 'real_time_factor':
+                self.game.pass_at(parameter.value)
+                self.wake()
 
     def store(self, act):
         """Keep `act`, to be done by the next step."""

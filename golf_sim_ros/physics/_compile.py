@@ -76,6 +76,7 @@ if numba:
                 self._reload_init.update(library._reload_init)
                 self._final_module.link_in(library._get_module_for_linking(), preserve=True)
             self._finalized = True
+
     class _Drafting(Compiler):
         """Compiles to a `_Draft`."""
 

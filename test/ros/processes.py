@@ -164,9 +164,11 @@ class Golfer(Client):
         return [json.loads(message.data) for message in self.collisions]
 
     def heartbeat(self):
-        """Wait until the sim has told twice more where the ball is: all it told before has arrived."""
-        seen = len(self.poses)
-        wait_until(lambda: len(self.poses) >= seen + 2, 'the sim told where the ball is')
+        """Wait until the sim has told a newcomer where the ball is: all it told before has arrived."""
+        seen, heard = len(self.poses), []
+        newcomer = self.node.create_subscription(PoseStamped, f'{self.ball}/pose', heard.append, 100)
+        wait_until(lambda: heard and len(self.poses) > seen, 'the sim told where the ball is')
+        self.node.destroy_subscription(newcomer)
 
     def reset(self):
         """All balls back to the start; `poses` ends with one from there."""

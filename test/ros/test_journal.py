@@ -21,10 +21,7 @@ TOPICS = {'/recorded/' + name for name in (
     'ball/place', 'ball/pose', 'ball/twist', 'ball/contact')} | {'/diagnostics'}
 
 
-@pytest.fixture(params=['mcap', 'sqlite3'])
-def storage(request):
-    """Each of the storages of rosbag2."""
-    return request.param
+HASTY = {'real_time_factor': 0.0, 'publish_clock': 'true'}
 
 
 def blow(winds, wind):
@@ -34,8 +31,8 @@ def blow(winds, wind):
     winds.publish(message)
 
 
-def play_in_gusts(golfer):
-    """Play `SHOTS`, with a new wind in each quarter of a second of flight, and a pause in the first."""
+def play_in_gusts(golfer, poses):
+    """Play `SHOTS`, with a new wind whenever `poses` have come, and a pause in the first."""
     winds = golfer.publisher(Vector3Stamped, 'wind')
     pauses = [True, False]
     for velocity, spin in SHOTS:
@@ -43,28 +40,30 @@ def play_in_gusts(golfer):
         while not golfer.results_of(velocity, spin):
             seen = len(golfer.poses)
             blow(winds, (0.01 * seen, -3.0 + 0.1 * (seen % 40), 0.0))
-            wait_until(lambda: len(golfer.poses) >= seen + 12 or golfer.results_of(velocity, spin),
-                       'the ball moved or stopped')
+            wait_until(lambda: len(golfer.poses) >= seen + poses or golfer.results_of(velocity, spin)
+                       or len(pauses) == 1, 'the ball moved or stopped')
             if pauses:
                 golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=pauses.pop(0)))
 
 
+@pytest.mark.parametrize('storage, pace', [('mcap', {}), ('sqlite3', HASTY)], ids=['mcap', 'sqlite3, hasty'])
 def test_three_shots_in_gusts_are_recorded_and_run_again_to_the_bit(
-        start, make_golfer, tmp_path, capsys, storage):
+        start, make_golfer, tmp_path, capsys, storage, pace):
     path = tmp_path / 'bag'
     recorder = start('tools.record_play', '-o', str(path), '--namespace', '/recorded', '--storage', storage)
-    sim = start('sim_node', *parameters('/recorded'))
+    sim = start('sim_node', *parameters('/recorded', **pace))
     sim.wait_for(READY)
     recorder.wait_for('recording ball')
     golfer = make_golfer('/recorded')
-    play_in_gusts(golfer)
+    play_in_gusts(golfer, 1 if pace else 12)
     golfer.heartbeat()
     assert recorder.stop(signal.SIGTERM if storage == 'mcap' else signal.SIGINT) == 0
     assert sim.stop() == 0
     recording, = read_bag(path)
     gusts = [entry for entry in recording.journal if entry['kind'] == 'wind']
-    assert len(gusts) > 3 and [entry['kind'] for entry in recording.journal].count('strike') == len(SHOTS)
-    assert topics(path) == TOPICS
+    assert len(gusts) > (0 if pace else 3)
+    assert [entry['kind'] for entry in recording.journal].count('strike') == len(SHOTS)
+    assert topics(path) == TOPICS | ({'/clock'} if pace else set())
     assert len(recording.tracks['ball'].times) > 50 and len(recording.collisions) > 2
     assert main([str(path)]) == 0
     assert f'{len(SHOTS)} of {len(SHOTS)} identical' in capsys.readouterr().out

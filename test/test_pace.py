@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How wall time becomes ticks."""
+import pytest
+
+from golf_sim_ros import pace
+from golf_sim_ros.pace import Pace
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """The wall clock [s], as a list of one that tests set."""
+    now = [100.0]
+    monkeypatch.setattr(pace, 'monotonic', lambda: now[0])
+    return now
+
+
+def ticks(pace, limit=10.0):
+    return sum(pace.portions(limit, 0.0))
+
+
+@pytest.mark.parametrize('factor', [0.1, 1.0, 2.5, 30.0])
+def test_time_passes_at_the_factor_however_late_the_timer_calls(clock, factor):
+    steady, done = Pace(0.004, 5, factor), 0
+    for late in (0.02, 0.031, 0.0001, 0.5, 0.02, 0.4299):
+        clock[0] += late
+        done += ticks(steady)
+    assert done == int(factor * 1.001 / 0.004)
+
+
+def test_a_stop_longer_than_the_limit_is_lost_and_counted(clock):
+    steady = Pace(0.01, 2)
+    clock[0] += 60.0
+    assert ticks(steady, 0.255) == 25
+    assert steady.lost == pytest.approx(59.745)
+
+
+def test_what_the_simulation_stood_still_for_does_not_count(clock):
+    steady = Pace(0.01, 2)
+    clock[0] += 60.0
+    steady.skip()
+    assert ticks(steady) == 0 and steady.lost == 0.0
+
+
+def test_many_ticks_come_in_portions_of_the_usual_size(clock):
+    steady = Pace(0.01, 5)
+    clock[0] += 0.1401
+    assert list(steady.portions(1.0, 0.0)) == [5, 9]
+
+
+def test_a_changed_factor_counts_from_then_on(clock):
+    steady = Pace(0.01, 5)
+    clock[0] += 0.1001
+    assert ticks(steady) == 10
+    steady.factor = 0.5
+    clock[0] += 0.1001
+    assert ticks(steady) == 5
+
+
+def test_who_hurries_goes_on_for_as_long_as_it_may(clock):
+    hasty = Pace(0.01, 5, 0.0)
+    portions = []
+    for ticks in hasty.portions(1.0, 0.05):
+        portions.append(ticks)
+        clock[0] += 0.0201
+    assert portions == [5, 5, 5] and hasty.lost == 0.0
