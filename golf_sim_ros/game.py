@@ -76,13 +76,13 @@ class Game:
             return
         done = 0
         for ticks in self.pace.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
-            if done:
+            if done and self.world.moving:
                 self.tell_balls()
             for _ in range(ticks):
                 self.tick()
+                if self.pace.hurries and not self.world.moving:
+                    return
             done += ticks
-            if self.pace.hurries and not self.world.moving:
-                break
         if moving and not self.pace.hurries:
             self.diagnosis.count(done, self.pace.usual * self.pace.factor)
 
@@ -178,23 +178,22 @@ class Game:
     def tell(self):
         """Balls that move or have just stopped; everything that somebody waits for."""
         scene_due = self.scene_due()
-        self.tell_balls()
+        self.tell_balls(self.all_due)
         if scene_due:
             self.broadcast.tell_scene(self.blowing)
         if self.course_due:
             self.broadcast.tell_course()
-        self.course_due = False
+        self.all_due = self.course_due = False
 
-    def tell_balls(self):
-        """Balls that move or have just stopped, or all that are due, and the time."""
+    def tell_balls(self, all_of_them=False):
+        """The time, and balls that move or have just stopped."""
         moving = set(self.moving())
         self.broadcast.tell_time()
-        for name in self.world.names if self.all_due else moving | self.awake:
+        for name in self.world.names if all_of_them else moving | self.awake:
             self.broadcast.tell_ball(name, self.orientations[name])
         for name in moving:
             self.broadcast.scene.trails[name].add(self.world[name].position)
         self.awake = moving
-        self.all_due = False
 
     def scene_due(self):
         """Whether the markers are due: seldom, but always where balls stop."""

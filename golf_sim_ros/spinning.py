@@ -39,6 +39,11 @@ class Ending:
             signal.setitimer(signal.ITIMER_REAL, AGAIN)
             raise KeyboardInterrupt
 
+    def be_patient(self):
+        """Interrupt nothing from now on."""
+        self.at_once = False
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+
 
 def run(make_node, args=None):
     """Exit code of a process that runs the node made by `make_node` until it is told to stop.
@@ -53,10 +58,10 @@ def run(make_node, args=None):
         node = checked(make_node)
         if node is None:
             return 0 if ending.told else 1
-        ending.at_once = False
+        ending.be_patient()
         spin(node, ending)
     except BaseException:  # interrupted, a compiler may well raise something else
-        ending.at_once = False
+        ending.be_patient()
         if not ending.told:
             raise
     finally:

@@ -122,7 +122,7 @@ def main(args=None):
     args = sys.argv if args is None else args
     options = parser().parse_args(remove_ros_args(args)[1:])
     ending = Ending()
-    ending.at_once = False
+    ending.be_patient()
     complete_environment()
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)

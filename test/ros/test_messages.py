@@ -6,7 +6,7 @@ from math import cos, inf, nan, pi, sin
 from hypothesis import given, strategies
 import pytest
 
-from golf_sim_ros import account, messages, pace
+from golf_sim_ros import account, messages
 from golf_sim_ros.orientation import turned, UPRIGHT
 from golf_sim_ros.physics import Collision, Result
 
@@ -72,37 +72,6 @@ def test_many_small_turns_about_one_axis_are_one_large_turn(rate, parts):
 
 def test_a_ball_that_does_not_spin_does_not_turn():
     assert turned((0.6, 0.0, 0.0, 0.8), (0.0, 0.0, 0.0), 1.0) == (0.6, 0.0, 0.0, 0.8)
-
-
-@pytest.fixture
-def clock(monkeypatch):
-    """A wall clock that is set by hand."""
-    hands = [100.0]
-    monkeypatch.setattr(pace, 'monotonic', lambda: hands[0])
-    return hands
-
-
-def test_ticks_that_a_late_call_missed_are_made_up(clock):
-    steps, found = pace.Pace(0.004), []
-    for late in (0.02, 0.02, 0.09, 0.001, 0.001, 0.018):
-        clock[0] += late
-        found.append(steps.due(0.25))
-    assert sum(found) in (37, 38) and found[2] in (22, 23) and steps.lost == 0.0
-
-
-def test_a_long_stop_is_not_caught_up_in_one_leap(clock):
-    steps = pace.Pace(0.004)
-    clock[0] += 3600.0
-    assert steps.due(0.25) == 62
-    assert steps.lost == pytest.approx(3599.75)
-
-
-def test_time_that_was_skipped_does_not_count(clock):
-    steps = pace.Pace(0.004)
-    clock[0] += 10.0
-    steps.skip()
-    clock[0] += 0.0101
-    assert steps.due(0.25) == 2
 
 
 def test_the_log_tells_a_drive_as_a_player_would():

@@ -5,10 +5,10 @@ from math import inf, sqrt
 import numpy as np
 
 from .._compile import generic, kernel
-from ..effects import flight_rates, pull
+from ..effects import flight_rates, pull, wind_at
 from ..path import lay
 from ..state import STEP
-from ..vector import along, dot, length, put, vector
+from ..vector import along, dot, length, put, sub, vector
 
 # What a wrong velocity or spin is worth in metres: it goes on for about a second, and 100 rad/s
 # bend a drive by about a metre in that time.
@@ -37,7 +37,7 @@ def error_weights(method):
 
 @generic
 def first_step(method, speed, hop):
-    """Length [s] of the first step of a flight at `speed` that lands after about `hop` seconds."""
+    """Length [s] of the first step at `speed` through the air, of a flight of about `hop` seconds."""
     return 0.01
 
 
@@ -102,6 +102,13 @@ def error_in_metres(ball, weights, h):
 
 
 @kernel
+def airspeed(model, ball):
+    """Speed [m/s] of the ball through the air around it."""
+    return length(sub(vector(ball['velocity']),
+                      wind_at(model.effects, model.land.ground, vector(ball['position']))))
+
+
+@kernel
 def hop(model, ball):
     """About how long [s] a ball that has just left a surface stays off it: as without air."""
     normal = vector(ball['normal'])
@@ -118,7 +125,7 @@ def step(method, model, ball):
     last = len(rows) - 1
     h = ball['step']
     if h == 0.0:
-        h = first_step(method, length(vector(ball['velocity'])), hop(model, ball))
+        h = first_step(method, airspeed(model, ball), hop(model, ball))
     stage(model, ball, 0, state_after(ball, NO_CHANGE))
     while True:
         change = NO_CHANGE
