@@ -271,7 +271,7 @@ def test_aiming_with_a_ball_of_another_name_exits_with_one_and_a_hint(shoot, scr
 @pytest.fixture(scope='module')
 def real_sim(start):
     """The real sim, in the namespace /real."""
-    process = start('sim_node', *parameters('/real'))
+    process = start('sim_node', *parameters('/real', real_time_factor=8.0))
     process.wait_for('ready')
     return process
 
