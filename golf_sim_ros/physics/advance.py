@@ -70,6 +70,8 @@ def resolve(model, ball, number, log):
     elif ending == BORDER:
         cross_border(model.land, ball, now)
     elif ball['phase'] != FLIGHT:
+        _, normal = surface.nearest(model.land.ground, ball['support'], vector(ball['position']))
+        put(ball['normal'], normal)
         if ending == SLIP_STOPS:
             stop_slip(model, ball)
         elif ending == BALL_STOPS:

@@ -12,9 +12,9 @@ from . import braked
 from .effects import pull
 from .ground import surface
 from .impulse import slip
-from .path import lay, position
+from .path import lay, position, velocity as speed_at
 from .state import BALL_STOPS, FLIGHT, REST, ROLL, SLIDE, SLIP_STOPS, STEP
-from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
+from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, unit, vector
 
 STILL = 1e-9  # m/s: slower than this is not moving
 LONGEST = 10.0  # s of one piece
@@ -174,11 +174,12 @@ def lay_glide(land, ball, motion, coast, q, turning, unwinding):
 
 @shared
 def bent_rates(land, ball, place, velocity, spin):
-    """Acceleration, rate of spin and press of a ball that follows ground which is not flat.
+    """Acceleration, rate of spin, press, and grip needed, of a ball that follows ground which is not flat.
 
     With n' the rate of the normal: staying on the surface demands v' n = -v n', so the ground
     presses with -(g n + v n') per mass. Grip also turns spin about the normal, w_n, into motion:
-    (1 + k) v'_t = g_t + k r w_n (n x n').
+    (1 + k) v'_t = g_t + k r w_n (n x n'). A sliding ball feels dynamic friction against its slip
+    instead, or, where it only begins to slip, along the grip that it lacks.
     """
     r = land.ball.radius
     k = land.ball.inertia
@@ -186,19 +187,20 @@ def bent_rates(land, ball, place, velocity, spin):
     turn = normal_rate(land, ball, place, velocity)
     press, downhill = surface.slope(pull(land.effects, place), normal)
     material = material_under(land, ball)
-    press -= dot(velocity, turn)
+    press = max(press - dot(velocity, turn), 0.0)
     about = dot(spin, normal)
     free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
     if length(velocity) > STILL:
         free = along(free, -brake(material, press, downhill, k) / length(velocity), velocity)
     friction = sub(free, downhill)
-    sliding = slip(velocity, spin, normal, r)
-    if length(sliding) > 1e-6:
-        friction = scale(-material['dynamic_friction'] * press / length(sliding), sliding)
-    elif length(friction) > material['static_friction'] * press:
-        friction = scale(material['dynamic_friction'] * press / length(friction), friction)
+    needed = length(friction)
+    if ball['phase'] == SLIDE:
+        against = scale(-1.0, slip(velocity, spin, normal, r))
+        if length(against) <= STILL:
+            against = friction
+        friction = scale(material['dynamic_friction'] * press, unit(against, ZERO))
     force = along(add(downhill, friction), -dot(velocity, turn), normal)
-    return force, scale(-1.0 / (k * r), cross(normal, friction)), press
+    return force, scale(-1.0 / (k * r), cross(normal, friction)), press, needed
 
 
 @kernel
@@ -219,23 +221,52 @@ def bent_piece(land, ball):
     x0 = vector(ball['position'])
     v0 = vector(ball['velocity'])
     w0 = vector(ball['spin'])
-    a0, dw0, press = bent_rates(land, ball, x0, v0, w0)
+    _, _, press, needed = bent_rates(land, ball, x0, v0, w0)
     if press <= 0.0:
         ball['phase'] = FLIGHT
         ball['step'] = 0.0
         return
+    if ball['phase'] == ROLL and needed > material_under(land, ball)['static_friction'] * press:
+        ball['phase'] = SLIDE
+    ball['ending'] = STEP
     h = min(1e-3, 0.02 * land.ball.radius / max(length(v0), 1e-3))
-    am, dwm, _ = bent_rates(land, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0),
-                            along(w0, 0.5 * h, dw0))
+    bent_step(land, ball, h)
+    if ball['phase'] == SLIDE:
+        before = slip(v0, w0, vector(ball['normal']), land.ball.radius)
+        after = slip_at_end(land, ball)
+        if length(before) > STILL and dot(before, after) <= 0.0:
+            bent_step(land, ball, h * length(before) / (length(before) + length(after)))
+            ball['ending'] = SLIP_STOPS
+
+
+@kernel
+def slip_at_end(land, ball):
+    """Slip of the ball at the end of its piece."""
+    place = position(ball, ball['span'])
+    _, normal = surface.nearest(land.ground, ball['support'], place)
+    return slip(speed_at(ball, ball['span']), vector(ball['twist'][3]), normal, land.ball.radius)
+
+
+@shared
+def bent_step(land, ball, h):
+    """Lay a piece of `h` seconds by the midpoint rule. Writes the ball's curve."""
+    r = land.ball.radius
+    x0 = vector(ball['position'])
+    v0 = vector(ball['velocity'])
+    w0 = vector(ball['spin'])
+    a0, dw0, _, _ = bent_rates(land, ball, x0, v0, w0)
+    am, dwm, _, _ = bent_rates(land, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0),
+                               along(w0, 0.5 * h, dw0))
     x1 = along(x0, h, along(v0, 0.5 * h, a0))
     distance, n1 = surface.nearest(land.ground, ball['support'], x1)
-    x1 = along(x1, land.ball.radius - distance, n1)
+    x1 = along(x1, r - distance, n1)
     v1 = along(v0, h, am)
     v1 = along(v1, -dot(v1, n1), n1)
     w1 = along(w0, h, dwm)
-    a1, dw1, _ = bent_rates(land, ball, x1, v1, w1)
+    if ball['phase'] == ROLL:
+        w1 = along(scale(1.0 / r, cross(n1, v1)), dot(w1, n1), n1)
+    a1, dw1, _, _ = bent_rates(land, ball, x1, v1, w1)
     ball['span'] = h
     put(ball['origin'], x0)
     put(ball['twist'][3], w1)
     lay(ball, sub(x1, x0), (v0, v1), (a0, a1), (dw0, dw1))
-    ball['ending'] = STEP

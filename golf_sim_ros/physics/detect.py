@@ -17,6 +17,7 @@ from .path import (corner, greatest_acceleration, least_acceleration, position, 
 from .vector import add, along, dot, length, vector
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
+SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 NEVER = 1e300
 MOST_STEPS = 200
@@ -121,7 +122,7 @@ def first_contact(ground, ball, radius, until, on):
             continue
         if on == ON_FLAT and surface.in_plane(ground, part, foot, vector(ball['normal'])):
             continue
-        if on == ON_EDGE and part == ball['support']:
+        if on == ON_EDGE and same_edge(ground, part, ball, best):
             continue
         time, touches = first_touch(ground, part, ball, radius, best)
         if touches and on == ON_FLAT:
@@ -133,6 +134,20 @@ def first_contact(ground, ball, radius, until, on):
             who = part
             hit = touches
     return best, who, hit
+
+
+@kernel
+def same_edge(ground, part, ball, until):
+    """Whether what is nearest of `part` is what supports the ball, now and `until` the piece's end."""
+    if part == ball['support']:
+        return True
+    for i in range(2):
+        place = position(ball, i * until)
+        distance, normal = surface.nearest(ground, part, place)
+        supported, upward = surface.nearest(ground, ball['support'], place)
+        if abs(distance - supported) > SAME or dot(normal, upward) < 1.0 - 1e-12:
+            return False
+    return True
 
 
 @shared
