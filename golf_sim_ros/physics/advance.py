@@ -8,6 +8,7 @@ read at the time asked for. Nothing ever steps to a tick, so paths do not depend
 import numpy as np
 
 from ._compile import borrowed, entry, kernel
+from .caught import hold, is_caught
 from .contact import settle
 from .effects import blow
 from .ground import surface
@@ -69,6 +70,8 @@ def resolve(model, ball, number, log):
         meet(model.land, ball, number, now, log)
     elif ending == BORDER:
         cross_border(model.land, ball, now)
+    elif is_caught(ball):
+        hold(model.land, ball, now)
     elif ball['phase'] != FLIGHT:
         _, normal = surface.nearest(model.land.ground, ball['support'], vector(ball['position']))
         put(ball['normal'], normal)

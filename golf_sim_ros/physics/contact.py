@@ -92,6 +92,8 @@ def flat_piece(land, ball, now):
     drift = scale(1.0 / (1.0 + k), downhill)
     if ball['phase'] == SLIDE:
         u = slip(v, vector(ball['spin']), normal, land.ball.radius)
+        if length(u) <= STILL:  # where it turns back, or it would turn back for ever
+            u = ZERO
         motion = braked.braked(u, downhill, (1.0 + 1.0 / k) * material['dynamic_friction'] * load, normal)
         coast = (along(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:

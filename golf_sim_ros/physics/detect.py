@@ -17,11 +17,12 @@ from .path import (corner, greatest_acceleration, least_acceleration, position, 
 from .vector import add, along, dot, length, vector
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
+NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
 SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 NEVER = 1e300
 MOST_STEPS = 200
-IN_THE_AIR, ON_FLAT, ON_EDGE = range(3)
+IN_THE_AIR, ON_FLAT, ON_EDGE, CAUGHT = range(4)
 
 
 @kernel
@@ -106,7 +107,7 @@ def first_contact(ground, ball, radius, until, on):
 
     `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
     under it, where surfaces in that plane, and edges met tangentially, are seams and no obstacles;
-    ON_EDGE the part that supports it.
+    ON_EDGE the part that supports it; CAUGHT all that holds it.
     """
     best = until
     who = -1
@@ -122,6 +123,8 @@ def first_contact(ground, ball, radius, until, on):
             continue
         if on == ON_FLAT and surface.in_plane(ground, part, foot, vector(ball['normal'])):
             continue
+        if on == CAUGHT and holds(ground, part, ball, radius):
+            continue
         if on == ON_EDGE and same_edge(ground, part, ball, best):
             continue
         time, touches = first_touch(ground, part, ball, radius, best)
@@ -134,6 +137,13 @@ def first_contact(ground, ball, radius, until, on):
             who = part
             hit = touches
     return best, who, hit
+
+
+@kernel
+def holds(ground, part, ball, radius):
+    """Whether `part` holds the caught ball as its piece begins, and so is no obstacle to it."""
+    distance, _ = surface.nearest(ground, part, vector(ball['position']))
+    return distance - radius <= NEAR
 
 
 @kernel

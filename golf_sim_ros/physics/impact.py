@@ -1,24 +1,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """Landing and bouncing: what an impact with the ground does, and what comes after it."""
 from ._compile import kernel, shared
+from .caught import STALL, hold, is_caught, presses
 from .contact import STILL, settle, stand_on
 from .effects import felt_normal, pull
 from .ground import surface
 from .impulse import Bond, impulse, take
 from .material import restitution
 from .shot import note_landing
-from .state import BOUNCE, FLIGHT, REST, SLIDE
+from .state import BOUNCE, FLIGHT, SLIDE
 from .vector import ZERO, along, dot, length, put, scale, sub, vector
 
 WORTH_TELLING = 0.1  # m/s of approach: slower contacts are not collisions
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
-WALL = 1e-3  # least part of gravity that must press for a ball to come to rest on a surface
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
 SLOW = 3.0  # m/s: slower than this the air hardly matters
 LEAST_SETTLE = 1e-6  # m/s: a bounce 0.05 picometres high
-STALL = 1e-6  # s between impacts: below this a ball is caught between surfaces
-MANY_STALLS = 20
-CAUGHT = 2e-3  # m/s: slower than this between two surfaces is at rest
 
 
 @shared
@@ -44,10 +41,8 @@ def meet(land, ball, number, now, log):
     rebound, bounciness = bounce(land, ball, number, now, normal, log)
     ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
     after_impact(land, ball, now, (supported, approach, rebound, bounciness), normal)
-    if ball['stalled'] > MANY_STALLS and length(vector(ball['velocity'])) < CAUGHT:
-        put(ball['velocity'], ZERO)
-        put(ball['spin'], ZERO)
-        ball['phase'] = REST
+    if is_caught(ball):
+        hold(land, ball, now)
 
 
 @kernel
@@ -92,8 +87,8 @@ def tell(land, ball, number, now, normal, before, log):
 def after_impact(land, ball, now, impact, normal):
     """Decide whether the ball flies on, or stays on what it hit or on what it was on."""
     supported, approach, rebound, bounciness = impact
-    press = -dot(pull(land.effects, vector(ball['position'])), normal)
-    if press > WALL * length(pull(land.effects, vector(ball['position']))):
+    if presses(land, ball, normal):
+        press = -dot(pull(land.effects, vector(ball['position'])), normal)
         if rebound <= STILL or rebound < settle_speed(land, ball) and bounciness < 1.0:
             # Bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all and press with
             # v (1 + e) / (1 - e) on the whole: (1 + e) / 2 of the weight, on the average.

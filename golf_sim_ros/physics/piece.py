@@ -4,16 +4,16 @@ from math import inf
 
 from . import path
 from ._compile import entry, kernel, shared
+from .caught import caught_step, is_caught
 from .contact import STILL, bent_piece, flat_piece, settle, stand_on
-from .detect import IN_THE_AIR, ON_EDGE, ON_FLAT, first_border, first_contact
+from .detect import CAUGHT, IN_THE_AIR, ON_EDGE, ON_FLAT, first_border, first_contact
 from .ground import surface
-from .impact import MANY_STALLS, cross_border
+from .impact import cross_border
 from .integrators import step
 from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
 from .vector import ZERO, along, cross, dot, length, put, scale, vector
 
 LONGEST_SHOT = 300.0  # s
-CAUGHT_STEP = 1e-4  # s in which a ball caught between surfaces moves freely
 
 
 @kernel
@@ -34,13 +34,13 @@ def lay_next(model, ball, now):
         on = IN_THE_AIR
         step(model.method, model, ball)
     until = ball['span']
-    if ball['stalled'] > MANY_STALLS:
-        until = min(until, CAUGHT_STEP)
-    else:
-        until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
-        if hit:
-            ball['ending'] = HIT
-            ball['target'] = part
+    if is_caught(ball):
+        on = CAUGHT
+        until = min(until, caught_step(ball))
+    until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
+    if hit:
+        ball['ending'] = HIT
+        ball['target'] = part
     if on == ON_FLAT:
         until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
         if crosses:

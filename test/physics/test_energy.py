@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import (Course, Material, Patch, Phase, Plane, Restitution, Result,
-                                  World,
-                                  ground_height, simulate_many)
+from golf_sim_ros.physics import (Course, LogProfile, Material, Patch, Phase, Plane, Restitution, Result,
+                                  World, ground_height, simulate_many)
 from scene import depth, energy, touches
 
 SHOTS = int(os.environ.get('RANDOM_SHOTS', 1000))  # 10000 for the whole lot
@@ -104,7 +103,8 @@ def of(*values):
 
 materials = st.builds(
     Material, of('any'), st.builds(Restitution, numbers(0, 1), of(0.0), of(0.0), numbers(0, 0.2)),
-    numbers(-1, 1), numbers(0, 2), numbers(0, 2), numbers(0.01, 2), numbers(0.0, 0.01), numbers(0, 1.5), of(()))
+    numbers(-1, 1), numbers(0, 2), numbers(0, 2), numbers(0.01, 2), numbers(0.0, 0.01), numbers(0, 1.5),
+    of(()))
 patches = st.builds(
     Patch, st.tuples(numbers(-3, 3), numbers(-3, 3), numbers(0, 1)),
     vectors(1).filter(lambda n: np.linalg.norm(n) > 0.1).map(
@@ -133,6 +133,21 @@ def test_a_shot_on_level_ground_of_any_material_ends_and_gains_no_energy(materia
         return
     world.strike('ball', velocity, spin)
     watch(world, tick=0.2)
+
+
+def test_wind_of_100_m_s_presses_a_ball_against_a_wall_and_never_through():
+    wall = Plane((5, 0, 0), (-1, 0, 0), ROUGH)
+    course = Course((Plane(material=ROUGH), wall), wind_profile=LogProfile())
+    world = World(course, wind=(100, 0, 0))
+    world.strike('ball', (10, 0, 10), (0, 0, 0))
+    for _ in range(1000):  # its spin carries it up the wall
+        world.advance(TICK)
+        assert world['ball'].position[0] < 5 - course.ball.radius + 1e-6
+    world.set_wind((0, 0, 0))
+    while world.moving:
+        world.advance(TICK)
+        assert depth(course, world['ball'].position) < 2e-6
+    assert touches(course, world['ball'].position)
 
 
 def test_wind_accuracy_and_place_may_change_in_mid_flight(links):
