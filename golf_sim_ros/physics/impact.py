@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Landing and bouncing: what an impact with the ground does, and what comes after it."""
+from . import at_once
 from ._compile import kernel, shared
 from .caught import STALL, hold, is_caught, presses
 from .contact import STILL, settle, stand_on
@@ -51,11 +52,15 @@ def bounce(land, ball, number, now, normal, log):
     material = land.materials[surface.material_of(land.ground, ball['target'])]
     before = vector(ball['velocity'])
     spun = vector(ball['spin'])
-    felt = felt_normal(land.effects, normal, before, material['softness'])
-    e = restitution(material, -dot(before, felt))
-    bond = Bond(e, material['tangential_restitution'], material['dynamic_friction'],
-                land.ball.mass, land.ball.inertia)
-    take(ball, impulse(bond, before, spun, felt, land.ball.radius), felt, land.ball)
+    contacts = at_once.touched(land.ground, ball, land.ball.radius, normal)
+    if contacts.count > 1:
+        at_once.reflect(land, ball, contacts)
+    else:
+        felt = felt_normal(land.effects, normal, before, material['softness'])
+        e = restitution(material, -dot(before, felt))
+        bond = Bond(e, material['tangential_restitution'], material['dynamic_friction'],
+                    land.ball.mass, land.ball.inertia)
+        take(ball, impulse(bond, before, spun, felt, land.ball.radius), felt, land.ball)
     rebound = dot(vector(ball['velocity']), normal)
     if rebound < 0.0:  # a tilted normal may send it into the ground: the true surface holds it
         put(ball['velocity'], along(vector(ball['velocity']), -rebound, normal))

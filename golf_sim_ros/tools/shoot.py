@@ -8,6 +8,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from ..environment import complete_environment
+from ..spinning import Ending
 from .launch_monitor import Launch, parted, velocity_and_spin
 from .player import NoShot, Player
 from .result_table import result_table
@@ -125,6 +126,7 @@ def shoot(player, options, launch):
 
 def main(args=None):
     """Hit the shot on the command line; return the exit code."""
+    ending = Ending()
     try:
         options, launch = begun(sys.argv if args is None else args)
         shoot(Player(options.ball, options.namespace, options.timeout), options, launch)
@@ -133,6 +135,7 @@ def main(args=None):
     except KeyboardInterrupt:
         return 130
     finally:
+        ending.be_patient()
         rclpy.try_shutdown()
     return 0
 
