@@ -7,12 +7,11 @@ from .diagnosis import Diagnosis, SLOW
 from .journal import Journal
 from .orientation import turned, UPRIGHT
 from .pace import Pace
-from .physics import Phase, Rejected, Result
+from .physics import Rejected, Result
 
-MOVING = (Phase.FLIGHT, Phase.SLIDE, Phase.ROLL)
 CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
 REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
-BUSY = 0.8  # of the time between steps goes to simulating as fast as it can
+BUSY = 0.95  # of the time between steps goes to simulating as fast as it can
 LONGEST_BUSY = 0.1  # s without hearing anything
 SCENE_RATE = 10.0  # play markers a second: they are large, and eyes are slow
 
@@ -92,7 +91,7 @@ class Game:
         events = self.world.advance(self.pace.tick)
         self.ticks += 1
         self.diagnosis.durations.append(perf_counter() - began)
-        for name in self.moving():
+        for name in self.world.in_motion:
             self.orientations[name] = turned(self.orientations[name], self.world[name].spin, self.pace.tick)
         for event in events:
             if isinstance(event, Result):
@@ -129,7 +128,7 @@ class Game:
     def place(self, name, point):
         """Put a resting ball on the ground at the x and y of `point`."""
         try:
-            if name in self.moving():
+            if name in self.world.in_motion:
                 raise ValueError('it is in motion')
             self.world.place(name, point[:2])
         except ValueError as error:
@@ -171,10 +170,6 @@ class Game:
         self.advance()
         self.pace.factor = factor
 
-    def moving(self):
-        """Names of the balls that move."""
-        return [name for name in self.world.names if self.world[name].phase in MOVING]
-
     def tell(self):
         """Balls that move or have just stopped; everything that somebody waits for."""
         scene_due = self.scene_due()
@@ -187,7 +182,7 @@ class Game:
 
     def tell_balls(self, all_of_them=False):
         """The time, and balls that move or have just stopped."""
-        moving = set(self.moving())
+        moving = set(self.world.in_motion)
         self.broadcast.tell_time()
         for name in self.world.names if all_of_them else moving | self.awake:
             self.broadcast.tell_ball(name, self.orientations[name])
@@ -198,7 +193,7 @@ class Game:
     def scene_due(self):
         """Whether the markers are due: seldom, but always where balls stop."""
         self.steps += 1
-        moving = set(self.moving())
+        moving = set(self.world.in_motion)
         return self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
 
     def diagnose(self):

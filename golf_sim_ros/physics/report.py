@@ -75,7 +75,7 @@ SUMMARY = np.dtype([
 
 def three(row):
     """Array of three as a tuple of floats."""
-    return float(row[0]), float(row[1]), float(row[2])
+    return tuple(row.tolist())
 
 
 def collision(event, time, ball, material):

@@ -14,12 +14,14 @@ from .ground import surface
 from .piece import LONGEST_SHOT, put_down
 from .report import collision, objection, result, three
 from .shot import tee_off
-from .state import BALL, BOUNCE, LAUNCH, NO_PART, REST, STEP, Phase, new_log, plain, restored
+from .state import (BALL, BOUNCE, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, REST, ROLL, SLIDE, STEP, Phase,
+                    new_log, plain, restored)
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
 FALL = 1e4  # m: how far down ground is looked for
 RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
+PHASES = tuple(Phase)
 MOST_WIND = 100.0  # m/s
 
 
@@ -101,12 +103,13 @@ class World:
     @property
     def moving(self):
         """Whether any ball moves."""
-        return bool(self._in_motion().any())
+        return bool(self.in_motion)
 
-    def _in_motion(self):
-        """Which balls move; of the phases, flight is the first that does and rolling the last."""
-        phases = self._balls['phase']
-        return (phases >= Phase.FLIGHT) & (phases <= Phase.ROLL)
+    @property
+    def in_motion(self):
+        """Names of the balls that move; of the phases, flight is the first that does and rolling the last."""
+        phases = self._balls['phase'].tolist()
+        return [name for name, phase in zip(self.names, phases) if FLIGHT <= phase <= ROLL]
 
     @property
     def compiled(self):
@@ -136,7 +139,7 @@ class World:
         """Return the `BallState` of the ball called `name`."""
         ball = self._ball(name)
         return BallState(three(ball['position']), three(ball['velocity']), three(ball['spin']),
-                         Phase(int(ball['phase'])), self._lie(ball))
+                         PHASES[ball['phase']], self._lie(ball))
 
     def _ball(self, name):
         if name not in self.names:
@@ -144,7 +147,7 @@ class World:
         return self._balls[self.names.index(name)]
 
     def _lie(self, ball):
-        if ball['phase'] == Phase.FLIGHT or ball['support'] < 0:
+        if ball['phase'] == FLIGHT or ball['support'] < 0:
             return ''
         return self._materials[ball['material']]
 
@@ -204,7 +207,7 @@ class World:
         velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))
         reason = objection(velocity, spin)
         if not reason and ball['phase'] != REST:
-            reason = f'ball {name} is ' + ('holed' if ball['phase'] == Phase.HOLED else 'in motion')
+            reason = f'ball {name} is ' + ('holed' if ball['phase'] == HOLED else 'in motion')
         if reason:
             raise Rejected(reason)
         self._settle_clock()
@@ -237,7 +240,7 @@ class World:
 
     def _begin_new_pieces(self):
         """End the pieces of flight now: the surroundings have changed."""
-        flying = self._balls['phase'] == Phase.FLIGHT
+        flying = self._balls['phase'] == FLIGHT
         self._balls['end'][flying] = self._now
         self._balls['ending'][flying] = STEP
 
@@ -274,7 +277,7 @@ class World:
                 events.append(collision(event, time, name, self._materials[event['material']]))
             else:
                 events.append(result(ball, name, time, self.course.hole, self._materials))
-                if ball['phase'] == Phase.OUT:
+                if ball['phase'] == OUT:
                     self._drop(ball)
         self._log.count[0] = 0
         return events
@@ -311,7 +314,7 @@ class World:
         list of Result
             Shots under way, with status 'aborted'.
         """
-        moving = self._in_motion()
+        moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL))
         self._balls['end'][moving], self._balls['ending'][moving] = self._now, STEP
         self._let_happen(self._now)
         aborted = []
