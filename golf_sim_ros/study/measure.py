@@ -55,17 +55,13 @@ def played(scene, accuracy, count=1):
 
 
 def timed(play):
-    """Median time [s] of one more shot, and of the first call, which compiles, of ``play(count)``.
-
-    One more: what a call costs before its first shot is taken off.
-    """
-    compiled, _ = clocked(play, 1), clocked(play, 1)
+    """Median time [s] of one more shot of ``play(count)``: what a call itself costs is taken off."""
     single = min(clocked(play, 1) for _ in range(REPEATS))
     count = 2
     while clocked(play, count) - single < BATCH_TIME and count < MOST_SHOTS:
         count *= 4
     times = [(clocked(play, count) - single) / (count - 1) for _ in range(REPEATS)]
-    return float(np.median(times)), compiled
+    return float(np.median(times))
 
 
 def clocked(play, count):
@@ -75,10 +71,17 @@ def clocked(play, count):
     return perf_counter() - began
 
 
+def first(play):
+    """What ``play()`` gives the first time, and the time [s] it takes, compiling included."""
+    began = perf_counter()
+    found = play()
+    return found, perf_counter() - began
+
+
 def measured(scene, truth, method):
     """`Row` of a `Method` on a scene."""
-    found = method.play(scene, 1)
+    found, compiled = first(lambda: method.play(scene, 1))
     touch, rest = truth.errors(found)
-    time, compiled = timed(lambda count: method.play(scene, count))
+    time = timed(lambda count: method.play(scene, count))
     return Row(scene.name, method.name, method.setting, touch if scene.flies else np.nan,
                rest, time, compiled)

@@ -148,23 +148,20 @@ PAGE = """# What accuracy costs
 
 Made by `{command}` on {machine}, Python {python}; do not edit. Errors are distances from a far tighter
 reference; times are medians for one whole shot, flight to rest, in a batch, on one thread. Compare times
-within
-this page only: machines differ, ratios less so.
+within this page only: machines differ, ratios less so.
 
 ![time against error]({picture})
 
 Each line is a method over its dial, more exact to the right; lower is faster. scipy flies to the first
-touch only,
-everything else plays to the rest. The rows are in [{table}]({table}).
+touch only, everything else plays to the rest. The rows are in [{table}]({table}).
 
 ## Which preset for what
 
 {presets}
 
-A putt costs little and is exact in every preset: rolling on a plane is in closed form. Where the ground is
-hard and
-bounces are many, an error of the flight grows with every bounce, so the rest is less exact than the first
-touch.
+A putt costs little and is exact in every preset: rolling on a plane is in closed form. Where the ground
+is hard and bounces are many, an error of the flight grows with every bounce, so the rest is less exact
+than the first touch.
 
 ## At equal error
 
@@ -177,26 +174,21 @@ Where Dormand-Prince was not the fastest:
 {exceptions}
 
 Where RK4 comes close or wins, flights are so smooth that a fixed step loses nothing: five evaluations a
-step against
-six, and no error estimate. But nothing tells RK4 which step a scene needs; a gust makes it ten thousand
-times less exact
-at the same step. Euler is first order and needs steps of microseconds for a centimetre.
+step against seven, and no error estimate. But nothing tells RK4 which step a scene needs; gusts make it
+thousands of times less exact at the same step. Euler is first order and needs steps far below a
+millisecond for a centimetre.
 
 ## The model of the report of 2019
 
 Linear drag, wind as a force that grows with height, a percentage of spin lost at every bounce, sand that
-swallows
-everything, semi-implicit Euler at 50 Hz with push-out (`golf_sim_ros/physics/report_2019.py`). What that
-costs against
-the model here:
+swallows everything, semi-implicit Euler at 50 Hz with push-out (`golf_sim_ros/physics/report_2019.py`).
+What that costs against the model here:
 
 {report}
 
 Linear drag is right at one speed only: too weak for a driver, too strong for a pitch. Friction without
-torque never
-makes a ball roll, so it skids until it stops. Push-out at 50 Hz lets a drive sink half a metre into the
-ground before it
-is noticed, and gives back energy that the impact had taken.
+torque never makes a ball roll, so it skids until it stops. Push-out at 50 Hz lets a drive sink half a
+metre into the ground before it is noticed, and gives back energy that the impact had taken.
 
 ## All rows
 

@@ -20,7 +20,7 @@ def main(args=None):
         from tqdm import tqdm
 
         from ..study import page
-        from ..study.measure import measured, played
+        from ..study.measure import first, measured, played
         from ..study.methods import TRUTH, methods
         from ..study.scenes import scenes
     except ImportError as error:
@@ -28,9 +28,12 @@ def main(args=None):
         return 1
     given.output.mkdir(parents=True, exist_ok=True)
     jobs = [(scene, method) for scene in scenes() for method in methods(scene)]
-    truths = {scene.name: played(scene, TRUTH) for scene in scenes()}
-    rows = [measured(scene, truths[scene.name], method)
+    truths = {scene.name: first(lambda: played(scene, TRUTH)) for scene in scenes()}
+    rows = [measured(scene, truths[scene.name][0], method)
             for scene, method in tqdm(jobs, desc='accuracy study', unit='method')]
+    compiled = {name: seconds for name, (_, seconds) in truths.items()}  # of Dormand-Prince, which came first
+    rows = [row._replace(compiled=compiled.pop(row.scene)) if row.method == 'dormand_prince'
+            and row.scene in compiled else row for row in rows]
     page.write_csv(rows, given.output / 'accuracy.csv')
     page.draw(rows, given.output / 'accuracy.png')
     page.write_page(rows, given.output / 'accuracy.md', 'accuracy.png', 'accuracy.csv',
