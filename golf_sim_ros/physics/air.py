@@ -35,7 +35,7 @@ def density(air):
     """
     celsius = air.temperature + ABSOLUTE_ZERO
     saturation = 610.94 * exp(17.625 * celsius / (celsius + 243.04))
-    vapour = min(air.relative_humidity * saturation, air.pressure)  # above that it boils
+    vapour = air.relative_humidity * saturation
     moles = GAS_CONSTANT * air.temperature
     return ((air.pressure - vapour) * DRY_AIR + vapour * WATER_VAPOUR) / moles
 

@@ -35,7 +35,7 @@ BAD_PLACES = {
 @pytest.fixture(scope='module')
 def sim(start):
     """The sim that gets bad input."""
-    process = start('sim_node', *parameters('/bad', real_time_factor=0.0))
+    process = start('sim_node', *parameters('/bad', real_time_factor=4.0))
     process.wait_for(READY)
     return process
 
@@ -51,7 +51,7 @@ def golfer(sim, make_golfer):
 @pytest.fixture(scope='module')
 def expected(start):
     """What the good shot gives in a sim to which nothing bad ever came."""
-    start('sim_node', *parameters('/good', real_time_factor=0.0)).wait_for(READY)
+    start('sim_node', *parameters('/good', real_time_factor=4.0)).wait_for(READY)
     golfer = Golfer('/good')
     try:
         return bits_of(golfer)
