@@ -59,7 +59,7 @@ setup(
         'bag': ['rosbags>=0.10'],
         'plot': ['matplotlib', 'rosbags>=0.10'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
-        'test': ['pytest', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10'],
+        'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10'],
     },
     zip_safe=False,
 )

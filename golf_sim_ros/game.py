@@ -53,9 +53,8 @@ class Game:
     @property
     def asleep(self):
         """Whether nothing changes until something arrives."""
-        if self.paused or self.pace.hurries:
-            return self.paused or not self.world.moving
-        return not self.world.moving and not self.keeps_time
+        stands_still = self.pace.hurries or not self.keeps_time
+        return self.paused or stands_still and not self.world.moving
 
     def step(self):
         """Let the time pass that has passed on the clock, apply what arrived, tell."""

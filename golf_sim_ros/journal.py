@@ -5,16 +5,15 @@ An entry is one JSON object on one line. Its first keys are its number, from 0, 
 tick: how many ticks had passed when the input was applied. Its last key is a CRC-32 of all that
 stands before it, so that a changed byte is noticed.
 """
-from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 import json
 import os
-from pathlib import Path
 import platform
 from zlib import crc32
 
 from . import __version__
 from .as_json import text
+from .physics._compile import source_key
 
 SEAL = ', "crc32": '
 
@@ -63,17 +62,9 @@ def standing(ball):
 
 def made_with():
     """What bits depend on, beside this package: they are promised where it is the same."""
-    return {'physics': _physics(), 'python': platform.python_version(), 'numpy': _version('numpy'),
+    return {'physics': source_key(), 'python': platform.python_version(), 'numpy': _version('numpy'),
             'numba': _version('numba'), 'compiled': os.environ.get('NUMBA_DISABLE_JIT', '0') in ('', '0'),
             'processor': _processor()}
-
-
-def _physics():
-    """Digest of the physics' sources: within a version they change, too."""
-    digest = sha256()
-    for source in sorted((Path(__file__).parent / 'physics').rglob('*.py')):
-        digest.update(source.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 def _version(name):

@@ -32,7 +32,8 @@ except ImportError:
         return records
 
 
-def _source_key():
+def source_key():
+    """Digest of all sources of the physics."""
     digest = hashlib.sha256()
     for source in sorted(Path(__file__).parent.rglob('*.py')):
         digest.update(source.read_bytes())
@@ -43,7 +44,7 @@ def _cache_folder():
     """Folder for compiled code: the user's cache, or a temporary one where that is read-only."""
     home = os.environ.get('XDG_CACHE_HOME') or os.path.join(os.path.expanduser('~'), '.cache')
     for root in (home, tempfile.gettempdir()):
-        folder = Path(root) / 'golf_sim_ros' / _source_key()
+        folder = Path(root) / 'golf_sim_ros' / source_key()
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError:

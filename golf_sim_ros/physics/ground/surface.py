@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import entry, kernel, shared, literal_unroll
+from .._compile import entry, kernel, literal_unroll, shared
 from ..state import NO_PART
 from ..vector import along, dot
 from . import laws
