@@ -76,5 +76,5 @@ def ground(course):
 
 
 def choose(names, course, balls, wind):
-    """Effect records of a scene and reasons of those left out; see `effects.choose`."""
+    """Effects of a scene; see `effects.choose`."""
     return effects_.choose(names, Scene(course, balls, tuple(map(float, wind))))

@@ -74,9 +74,8 @@ class World:
 
     def _rebuild(self):
         """Choose the effects anew and build the model for kernels."""
-        chosen = model_.choose(self._asked, self.course, len(self.names), self._wind)
-        self._records, self.effects_off = chosen
-        self._model = model_.build(self.course, self._records.values(), self._preset)
+        self._chosen = model_.choose(self._asked, self.course, len(self.names), self._wind)
+        self._model = model_.build(self.course, self._chosen.records, self._preset)
 
     def _tee_up(self):
         """Put all balls side by side on the tee."""
@@ -87,7 +86,12 @@ class World:
     @property
     def effects_on(self):
         """Names of the effects that are simulated now."""
-        return tuple(self._records)
+        return tuple(self._chosen.on)
+
+    @property
+    def effects_off(self):
+        """Reasons of the effects that are not simulated now, by name."""
+        return self._chosen.off
 
     @property
     def accuracy(self):
@@ -97,7 +101,7 @@ class World:
     @accuracy.setter
     def accuracy(self, accuracy):
         self._preset, self._accuracy = preset(accuracy), accuracy
-        self._model = model_.build(self.course, self._records.values(), self._preset)
+        self._model = model_.build(self.course, self._chosen.records, self._preset)
         self._begin_new_pieces()
 
     @property
@@ -118,21 +122,18 @@ class World:
         return mark is None or mark.exists()
 
     def compile(self):
-        """Compile all that a play can need, with wind and without. Takes a while, once a machine."""
+        """Compile all that a play can need. Takes a while, once a machine."""
         trial = World(self.course, self.names, self._asked, self._preset)
-        for wind in (ZERO, (1.0, 0.0, 0.0)):
-            trial.set_wind(wind)
-            trial.strike(self.names[0], (1.0, 0.0, 1.0))
-            trial.advance(LONGEST_SHOT)
+        trial.strike(self.names[0], (1.0, 0.0, 1.0))
+        trial.advance(LONGEST_SHOT)
         mark = stamp(self._types())
         if mark:
             mark.parent.mkdir(parents=True, exist_ok=True)
             mark.touch()
 
     def _types(self):
-        """What decides which machine code is needed: the types of a windy world's records."""
-        windy, _ = model_.choose(self._asked, self.course, len(self.names), (1.0, 0.0, 0.0))
-        records = (*windy.values(), self._preset.method, *self._model.land.ground.kinds)
+        """What decides which machine code is needed: the types of the model's records."""
+        records = (*self._chosen.records, self._preset.method, *self._model.land.ground.kinds)
         return ' '.join(f'{type(r).__module__}.{type(r).__qualname__}' for r in records)
 
     def __getitem__(self, name):
@@ -233,9 +234,8 @@ class World:
         if wind == self._wind:
             return
         self._wind = wind
-        self._records, self.effects_off = model_.choose(
-            self._asked, self.course, len(self.names), wind)
-        self._model = self._model._replace(effects=tuple(self._records.values()))
+        self._chosen = model_.choose(self._asked, self.course, len(self.names), wind)
+        self._model = self._model._replace(effects=self._chosen.records or self._model.effects)
         self._begin_new_pieces()
 
     def _begin_new_pieces(self):

@@ -15,7 +15,7 @@ def fly(scene, method, rtol):
 
     The right-hand side is in scalar arithmetic, which is several times as fast as small arrays.
     """
-    records, _ = choose(scene.effects, Scene(scene.course, 1, (0.0, 0.0, 0.0)))
+    records = choose(scene.effects, Scene(scene.course)).on
     radius = scene.course.ball.radius
     gusts = checked_gusts(scene.wind)
 

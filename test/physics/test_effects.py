@@ -89,14 +89,14 @@ def answers(name):
 
 @pytest.mark.parametrize('scene', SCENES)
 def test_auto_gives_each_effect_or_a_reason(scene):
-    on, off = choose('auto', SCENES[scene])
+    on, off, _ = choose('auto', SCENES[scene])
     assert list(sorted([*on, *off])) == sorted(EFFECTS)
     assert all(reason and '\n' not in reason for reason in off.values())
     assert 'gravity' in on
 
 
 def test_auto_leaves_out_what_the_scene_has_no_cause_for():
-    off = {scene: choose('auto', SCENES[scene])[1] for scene in SCENES}
+    off = {scene: choose('auto', SCENES[scene]).off for scene in SCENES}
     assert off['calm turf'].keys() == {'wind', 'linear_drag'}
     assert off['hard ground'].keys() == {'wind', 'linear_drag', 'turf'}
     assert off['wind'].keys() == {'linear_drag'}
@@ -115,7 +115,7 @@ def ends_without_and_with(name):
     """Ends of a shot by auto and by auto with `name`, in all scenes where auto leaves it out."""
     pairs = []
     for scene in SCENES.values():
-        on, off = choose('auto', scene)
+        on, off, _ = choose('auto', scene)
         if name in off:
             pairs.append([end(scene, effects) for effects in ('auto', (*on, name))])
     return pairs
@@ -136,7 +136,7 @@ def test_an_effect_that_is_on_matters(name, told):
 def difference(name):
     """By how much [m] a shot in the wind would come to rest elsewhere, or come down, without an effect."""
     scene = SCENES['wind']
-    others = [other for other in choose('auto', scene)[0] if other != name]
+    others = [other for other in choose('auto', scene).on if other != name]
     places = []
     for names in ((*others, name), others):
         world = World(scene.course, wind=scene.wind, effects=names)
@@ -158,7 +158,7 @@ def ends_in_orders():
 
 
 def test_effects_not_asked_for_are_off_and_say_so():
-    on, off = choose(('gravity', 'drag'), SCENES['wind'])
+    on, off, _ = choose(('gravity', 'drag'), SCENES['wind'])
     assert on.keys() == {'gravity', 'drag'}
     assert set(off.values()) == {'not asked for'}
 

@@ -3,12 +3,14 @@
 
 A file of this folder that defines ``record(scene)`` and ``idle(scene)`` is an effect, named after
 the file. ``record`` gives the effect's record for a scene; ``idle`` says why the scene can do
-without it, or '' if it can't. Other packages add theirs with :func:`register_effect`.
+without it, or '' if it can't. An idle effect is not compiled in, unless the file defines
+``dormant(scene)`` too: a record of the same type that does nothing, so that nothing compiles when
+the effect awakes. Other packages add theirs with :func:`register_effect`.
 """
 import importlib
 import inspect
 import pkgutil
-from typing import Callable, NamedTuple
+from typing import Callable, NamedTuple, Optional
 
 from .._compile import kernel, literal_unroll
 from ..vector import ZERO, add, length, sub
@@ -24,25 +26,34 @@ class Scene(NamedTuple):
 
 
 class Effect(NamedTuple):
-    """A known effect: how to build its record, and when a scene can do without."""
+    """A known effect: how to build its record, when a scene can do without, a record that sleeps."""
 
     record: Callable
     idle: Callable
     doc: str
+    dormant: Optional[Callable] = None
+
+
+class Chosen(NamedTuple):
+    """Records by name of the effects that a scene gets; reasons of those left out; records to compile."""
+
+    on: dict
+    off: dict
+    records: tuple
 
 
 EFFECTS = {}
 
 
-def register_effect(name, record, idle, doc):
-    """Make an effect known under `name`; see the module's docstring for `record` and `idle`."""
+def register_effect(name, record, idle, doc, dormant=None):
+    """Make an effect known under `name`; see the module's docstring for the other parameters."""
     if name in EFFECTS:
         raise ValueError(f'effect {name!r} is already registered')
-    EFFECTS[name] = Effect(record, idle, doc)
+    EFFECTS[name] = Effect(record, idle, doc, dormant)
 
 
 def choose(names, scene):
-    """Records of the effects that `scene` gets, and why it does without the others.
+    """What `scene` gets, and why it does without the others.
 
     Parameters
     ----------
@@ -52,9 +63,7 @@ def choose(names, scene):
 
     Returns
     -------
-    on : dict of str to record
-    off : dict of str to str
-        Reason of each effect that is left out.
+    Chosen
 
     Raises
     ------
@@ -65,14 +74,18 @@ def choose(names, scene):
     for name in () if auto else names:
         if name not in EFFECTS:
             raise ValueError(f'effect {name!r} is unknown; known: auto, {", ".join(sorted(EFFECTS))}')
-    on, off = {}, {}
+    on, off, records = {}, {}, []
     for name, effect in EFFECTS.items():
-        reason = effect.idle(scene) if auto else '' if name in names else 'not asked for'
-        if reason:
-            off[name] = reason
-        else:
+        asked = auto or name in names
+        reason = effect.idle(scene) if auto else '' if asked else 'not asked for'
+        if not reason:
             on[name] = effect.record(scene)
-    return on, off
+            records.append(on[name])
+            continue
+        off[name] = reason
+        if asked and effect.dormant:
+            records.append(effect.dormant(scene))
+    return Chosen(on, off, tuple(records))
 
 
 @kernel
@@ -125,7 +138,8 @@ def _discover():
     for module in pkgutil.iter_modules(__path__):
         found = importlib.import_module(f'{__name__}.{module.name}')
         if hasattr(found, 'record'):
-            register_effect(module.name, found.record, found.idle, inspect.getdoc(found).splitlines()[0])
+            register_effect(module.name, found.record, found.idle, inspect.getdoc(found).splitlines()[0],
+                            getattr(found, 'dormant', None))
 
 
 _discover()

@@ -7,10 +7,11 @@ import numpy as np
 
 from .._compile import kernel
 from ..ground.surface import ground_height
-from ..vector import put, scale, vector
+from ..vector import ZERO, put, scale, vector
 from . import laws
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
+STILL = -1
 
 
 class LogProfile(NamedTuple):
@@ -30,7 +31,7 @@ class UniformProfile(NamedTuple):
 
 
 class Wind(NamedTuple):
-    """Wind of `velocity`, an array of 3 [m/s], at 10 m; `law` 0 uniform, 1 logarithmic, 2 power.
+    """Wind of `velocity`, an array of 3 [m/s], at 10 m; `law` 0 uniform, 1 logarithmic, 2 power, -1 none.
 
     The law is a number, not a type, so that a course with another law compiles nothing.
     """
@@ -53,6 +54,8 @@ def share(effect, height):
 
 @laws.air_velocity.register(Wind)
 def _air_velocity(effect, ground, position):
+    if effect.law == STILL:
+        return ZERO
     from_ground = position[2]
     if effect.law != 0:
         from_ground -= ground_height(ground, position[0], position[1])
@@ -83,3 +86,8 @@ def record(scene):
 def idle(scene):
     """Why `scene` can do without: in still air."""
     return '' if any(scene.wind) else 'no wind'
+
+
+def dormant(scene):
+    """Record of a wind that does not blow: one that comes up later compiles nothing."""
+    return Wind(np.zeros(3), STILL, 1.0, 1.0)
