@@ -14,7 +14,7 @@ def look_down(ground, xs, ys, heights, numbers):
     for i in range(len(xs)):
         z, part = surface.top(ground, xs[i], ys[i])
         heights[i] = z
-        numbers[i] = surface.material_of(ground, part) if part >= 0 else -1
+        numbers[i] = surface.material_of(ground, part, (xs[i], ys[i], z)) if part >= 0 else -1
 
 
 def relief(course, x, y):

@@ -17,11 +17,14 @@ from pathlib import Path
 try:
     import numba
     from numba import _dynfunc, literal_unroll
+    from numba.core import cgutils, types
     from numba.core.codegen import JITCodeLibrary
     from numba.core.compiler import Compiler
+    from numba.core.datamodel import models
+    from numba.core.imputils import lower_getattr_generic
     from numba.core.registry import CPUDispatcher
-    from numba.core import types
-    from numba.extending import intrinsic, overload
+    from numba.core.typing.templates import AttributeTemplate, infer_getattr
+    from numba.extending import intrinsic, overload, register_model
 except ImportError:
     numba = None
     warnings.warn('numba is not installed: the physics runs in plain Python, some 100 times slower',
@@ -64,6 +67,11 @@ if numba:
 
         def __call__(self, *args):
             raise TypeError(f'{self.__name__} can only be called by kernels: make it an @entry')
+
+        def get_call_template(self, args, kws):
+            """What to call for arguments of these types: a constant needs no code of its own."""
+            return super().get_call_template([types.unliteral(a) for a in args],
+                                             {name: types.unliteral(a) for name, a in kws.items()})
 
     class _Draft(JITCodeLibrary):
         """Code that is only linked into other code: optimised and made machine code there, once.
@@ -136,35 +144,87 @@ def stamp(key):
 
 
 def borrowed(record):
-    """`record`, its arrays not counted: for an entry's arguments, which the caller keeps alive.
+    """`record` by reference, its arrays not counted: for an entry's arguments, which the caller keeps alive.
 
-    Counting references to arrays costs more than all else in a kernel.
+    numba hands a record from kernel to kernel by value, a model with its dozens of arrays as hundreds
+    of numbers, and counts references to each array. By reference it is one pointer; its fields are
+    read where they are needed. So is every record in it.
     """
     return record
 
 
 if numba:
-    @intrinsic
-    def _uncounted(typing, array):
-        def build(context, builder, signature, args):
-            view = context.make_array(array)(context, builder, args[0])
-            view.meminfo = view.meminfo.type(None)
-            view.parent = view.parent.type(None)
-            return view._getvalue()
-        return array(array), build
+    class _Reference(types.Type):
+        """Pointer to a named tuple that outlives it; its fields are read like the tuple's."""
 
-    @overload(borrowed)
+        def __init__(self, record):
+            self.record = record
+            super().__init__(f'Reference({record})')
+
+        @property
+        def instance_class(self):
+            return self.record.instance_class
+
+    @register_model(_Reference)
+    class _ReferenceModel(models.PrimitiveModel):
+        """A pointer to the tuple's value."""
+
+        def __init__(self, manager, reference):
+            value = manager.lookup(reference.record).get_value_type()
+            super().__init__(manager, reference, value.as_pointer())
+
+    def _read(field):
+        """Type of a field of type `field`, read through a reference."""
+        if isinstance(field, types.BaseNamedTuple):
+            return _Reference(field)
+        if isinstance(field, types.BaseTuple):
+            return types.Tuple([_read(item) for item in field.types])
+        return field
+
+    @infer_getattr
+    class _ReferenceFields(AttributeTemplate):
+        """Types of the fields."""
+
+        key = _Reference
+
+        def generic_resolve(self, reference, name):
+            if name in reference.record.fields:
+                return _read(reference.record.types[reference.record.fields.index(name)])
+            return None
+
+    @lower_getattr_generic(_Reference)
+    def _get_field(context, builder, reference, pointer, name):
+        index = reference.record.fields.index(name)
+        return _load(context, builder, reference.record.types[index], cgutils.gep_inbounds(builder, pointer, 0, index))
+
+    def _load(context, builder, field, pointer):
+        if isinstance(field, types.BaseNamedTuple):
+            return pointer
+        if isinstance(field, types.BaseTuple):
+            items = [_load(context, builder, item, cgutils.gep_inbounds(builder, pointer, 0, i))
+                     for i, item in enumerate(field.types)]
+            return context.make_tuple(builder, _read(field), items)
+        value = builder.load(pointer)
+        return _view(context, builder, field, value) if isinstance(field, types.Array) else value
+
+    def _view(context, builder, array, value):
+        """The array without its owner, so that nobody counts references to it."""
+        view = context.make_array(array)(context, builder, value)
+        view.meminfo = view.meminfo.type(None)
+        view.parent = view.parent.type(None)
+        return view._getvalue()
+
+    @intrinsic
+    def _borrow(typing, record):
+        def build(context, builder, signature, args):
+            if isinstance(record, types.Array):
+                return _view(context, builder, record, args[0])
+            return cgutils.alloca_once_value(builder, args[0])
+        return (record if isinstance(record, types.Array) else _Reference(record))(record), build
+
+    @overload(borrowed, inline='always')  # what it points to lies in the entry's own frame
     def _borrowed(record):
-        if isinstance(record, types.Array):
-            return lambda record: _uncounted(record)
-        if isinstance(record, types.BaseNamedTuple):
-            fields = ', '.join(f'borrowed(record.{name})' for name in record.fields)
-            return eval(f'lambda record: make({fields})',
-                        {'make': record.instance_class, 'borrowed': borrowed})
-        if isinstance(record, types.BaseTuple):
-            items = ''.join(f'borrowed(record[{i}]), ' for i in range(record.count))
-            return eval(f'lambda record: ({items})', {'borrowed': borrowed})
-        return lambda record: record
+        return lambda record: _borrow(record)
 
 
 GENERIC = {'forceinline': True, 'no_cpython_wrapper': True, 'pipeline_class': _Drafting} if numba else {}

@@ -8,6 +8,7 @@ non-negative impulses, each impulse counts 1 + e times, and that is repeated unt
 from typing import NamedTuple
 
 from ._compile import kernel, shared
+from .contact import material_of
 from .ground import surface
 from .impulse import slip
 from .material import restitution
@@ -32,17 +33,19 @@ def touched(ground, ball, radius, normal):
     """`Touched` of the ball's target, which has `normal`, and what else it approaches."""
     place = vector(ball['position'])
     found = Touched(1, (ball['target'], -1, -1), (normal, ZERO, ZERO))
-    for part in range(surface.parts(ground)):
+    low, high = surface.around(place, radius + TOGETHER)
+    part = surface.next_part(ground, 0, low, high)
+    while part >= 0 and found.count < 3:
         distance, other = surface.nearest(ground, part, place)
-        if distance - radius > TOGETHER or dot(vector(ball['velocity']), other) >= 0.0:
-            continue
-        if found.count < 3 and is_new(found, other) and surface.touchable(ground, part, place):
+        if (distance - radius <= TOGETHER and dot(vector(ball['velocity']), other) < 0.0
+                and is_new(found, other) and surface.touchable(ground, part, place)):
             a, b, _ = found.parts
             n, m, _ = found.normals
             if found.count == 1:
                 found = Touched(2, (a, part, -1), (n, other, ZERO))
             else:
                 found = Touched(3, (a, b, part), (n, m, other))
+        part = surface.next_part(ground, part + 1, low, high)
     return found
 
 
@@ -65,7 +68,7 @@ def reflect(land, ball, contacts):
             break
         after = v
         for i in range(contacts.count):
-            material = land.materials[surface.material_of(land.ground, contacts.parts[i])]
+            material = material_of(land, ball, contacts.parts[i], contacts.normals[i])
             e = restitution(material, max(-dot(v, contacts.normals[i]), 0.0))
             after = along(after, (1.0 + e) * pushes[i], contacts.normals[i])
         put(ball['velocity'], after)
@@ -101,7 +104,7 @@ def grip(land, ball, contacts, pushes):
     turn = ZERO
     for i in range(contacts.count):
         normal = contacts.normals[i]
-        material = land.materials[surface.material_of(land.ground, contacts.parts[i])]
+        material = material_of(land, ball, contacts.parts[i], contacts.normals[i])
         sliding = slip(v, w, normal, r)
         needed = (1.0 + material['tangential_restitution']) * k / (1.0 + k) * length(sliding)
         most = material['dynamic_friction'] * pushes[i]

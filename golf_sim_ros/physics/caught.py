@@ -8,11 +8,12 @@ often as it takes (Moreau's time stepping, with projected Gauss-Seidel and proje
 from math import sqrt
 
 from ._compile import kernel, shared
-from .contact import STILL, settle, stand_on
+from .contact import material_of, settle, stand_on
 from .detect import NEAR
 from .effects import pull
 from .ground import surface
 from .impulse import Bond, impulse, take
+from .motion import STILL
 from .path import greatest_acceleration
 from .state import FLIGHT, NO_PART, REST, SLIDE
 from .vector import ZERO, along, dot, length, put, scale, vector
@@ -81,6 +82,16 @@ def hold(land, ball, now):
 
 
 @kernel
+def stop_approach(land, ball, part, normal):
+    """Let `part` take away what drives the ball in, with friction. Returns its rolling resistance."""
+    material = material_of(land, ball, part, normal)
+    bond = Bond(0.0, 0.0, material['dynamic_friction'], land.ball.mass, land.ball.inertia)
+    push = impulse(bond, vector(ball['velocity']), vector(ball['spin']), normal, land.ball.radius)
+    take(ball, push, normal, land.ball)
+    return material['rolling_resistance']
+
+
+@kernel
 def hold_once(land, ball):
     """One sweep over all that is touched: how many surfaces, the greatest approach, rolling resistance.
 
@@ -90,26 +101,22 @@ def hold_once(land, ball):
     drive = 0.0
     braking = 0.0
     last = ZERO
-    for part in range(surface.parts(land.ground)):
+    low, high = surface.around(vector(ball['position']), land.ball.radius + NEAR)
+    part = surface.next_part(land.ground, 0, low, high)
+    while part >= 0:
         place = vector(ball['position'])
         distance, normal = surface.nearest(land.ground, part, place)
         gap = distance - land.ball.radius
-        if gap > NEAR or not surface.touchable(land.ground, part, place):
-            continue
-        if dot(normal, last) > 1.0 - 1e-9:
-            continue
-        last = normal
-        surfaces += 1
-        if gap < 0.0:
-            put(ball['position'], along(place, -gap, normal))
-        approach = -dot(vector(ball['velocity']), normal)
-        if approach > 0.0:
-            material = land.materials[surface.material_of(land.ground, part)]
-            bond = Bond(0.0, 0.0, material['dynamic_friction'], land.ball.mass, land.ball.inertia)
-            push = impulse(bond, vector(ball['velocity']), vector(ball['spin']), normal, land.ball.radius)
-            take(ball, push, normal, land.ball)
-            drive = max(drive, approach)
-            braking += material['rolling_resistance'] * approach
-        if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
-            stand_on(land, ball, part, normal)
+        if gap <= NEAR and dot(normal, last) <= 1.0 - 1e-9 and surface.touchable(land.ground, part, place):
+            last = normal
+            surfaces += 1
+            if gap < 0.0:
+                put(ball['position'], along(place, -gap, normal))
+            approach = -dot(vector(ball['velocity']), normal)
+            if approach > 0.0:
+                drive = max(drive, approach)
+                braking += approach * stop_approach(land, ball, part, normal)
+            if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
+                stand_on(land, ball, surface.support_of(land.ground, part), normal)
+        part = surface.next_part(land.ground, part + 1, low, high)
     return surfaces, drive, braking

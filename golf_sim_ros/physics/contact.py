@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sliding, rolling, pivoting, resting: motion of a ball that keeps touching the ground.
+"""Sliding, rolling, pivoting, resting: motion of a ball that keeps touching flat ground.
 
-On flat ground everything is in closed form (see braked.py). With k the moment of inertia over
+Everything is in closed form (see braked.py). With k the moment of inertia over
 m r^2, slip u obeys u' = g_t - (1 + 1/k) mu N u/|u|, rolling v' = g_t/(1 + k) - a v/|v|, and a ball
 slides as v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
 """
@@ -12,11 +12,11 @@ from . import braked
 from .effects import pull
 from .ground import surface
 from .impulse import slip
-from .path import lay, position, velocity as speed_at
-from .state import BALL_STOPS, FLIGHT, REST, ROLL, SLIDE, SLIP_STOPS, STEP
-from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, unit, vector
+from .motion import STILL, brake, material_under
+from .path import lay, position
+from .state import BALL_STOPS, REST, ROLL, SLIDE, SLIP_STOPS, STEP
+from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
 
-STILL = 1e-9  # m/s: slower than this is not moving
 LONGEST = 10.0  # s of one piece
 
 
@@ -24,31 +24,27 @@ LONGEST = 10.0  # s of one piece
 def stand_on(land, ball, part, normal):
     """Let the ball stand on `part`, or on nothing (NO_PART). Writes support, material, normal."""
     ball['support'] = part
-    ball['material'] = surface.material_of(land.ground, part)
+    ball['material'] = material_number(land, ball, part, normal)
     put(ball['normal'], normal)
 
 
 @kernel
-def material_under(land, ball):
-    """Row of the material that the ball touches."""
-    return land.materials[ball['material']]
+def material_number(land, ball, part, normal):
+    """Number of the material of `part` where the ball touches it with `normal`."""
+    foot = along(vector(ball['position']), -land.ball.radius, normal)
+    return surface.material_of(land.ground, part, foot)
+
+
+@kernel
+def material_of(land, ball, part, normal):
+    """Row of the material of `part` where the ball touches it with `normal`."""
+    return land.materials[material_number(land, ball, part, normal)]
 
 
 @kernel
 def in_tail(ball, now):
     """Whether the ball's last, tiny bounces are still going on."""
     return ball['tail_end'] > now
-
-
-@kernel
-def brake(material, press, downhill, inertia):
-    """Deceleration of a rolling ball: what rolling resistance asks for and grip can give.
-
-    Friction must brake, and turn the ball as it speeds up downhill, with k/(1 + k) of that pull. So a
-    ball holds where (5/7) tan <= rolling resistance and tan <= static friction.
-    """
-    grip = material['static_friction'] * press - inertia / (1.0 + inertia) * length(downhill)
-    return min(material['rolling_resistance'] * press, max(grip, 0.0))
 
 
 @shared
@@ -172,103 +168,3 @@ def lay_glide(land, ball, motion, coast, q, turning, unwinding):
     lay(ball, way, (v0, v1), (a0, a1),
         (add(scale(1.0 / r, cross(normal, along(a0, -keep, du0))), winding),
          add(scale(1.0 / r, cross(normal, along(a1, -keep, du1))), winding)))
-
-
-@shared
-def bent_rates(land, ball, place, velocity, spin):
-    """Acceleration, rate of spin, press, and grip needed, of a ball that follows ground which is not flat.
-
-    With n' the rate of the normal: staying on the surface demands v' n = -v n', so the ground
-    presses with -(g n + v n') per mass. Grip also turns spin about the normal, w_n, into motion:
-    (1 + k) v'_t = g_t + k r w_n (n x n'). A sliding ball feels dynamic friction against its slip
-    instead, or, where it only begins to slip, along the grip that it lacks.
-    """
-    r = land.ball.radius
-    k = land.ball.inertia
-    _, normal = surface.nearest(land.ground, ball['support'], place)
-    turn = normal_rate(land, ball, place, velocity)
-    press, downhill = surface.slope(pull(land.effects, place), normal)
-    material = material_under(land, ball)
-    press = max(press - dot(velocity, turn), 0.0)
-    about = dot(spin, normal)
-    free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
-    if length(velocity) > STILL:
-        free = along(free, -brake(material, press, downhill, k) / length(velocity), velocity)
-    friction = sub(free, downhill)
-    needed = length(friction)
-    if ball['phase'] == SLIDE:
-        against = scale(-1.0, slip(velocity, spin, normal, r))
-        if length(against) <= STILL:
-            against = friction
-        friction = scale(material['dynamic_friction'] * press, unit(against, ZERO))
-    force = along(add(downhill, friction), -dot(velocity, turn), normal)
-    return force, scale(-1.0 / (k * r), cross(normal, friction)), press, needed
-
-
-@kernel
-def normal_rate(land, ball, place, velocity):
-    """Rate of change of the normal under a ball that moves on at `velocity`."""
-    speed = length(velocity)
-    if speed == 0.0:
-        return ZERO
-    dt = 1e-5 * land.ball.radius / speed
-    _, here = surface.nearest(land.ground, ball['support'], place)
-    _, next_one = surface.nearest(land.ground, ball['support'], along(place, dt, velocity))
-    return scale(1.0 / dt, sub(next_one, here))
-
-
-@shared
-def bent_piece(land, ball):
-    """Lay a short piece around an edge by the midpoint rule; lift off where the press is gone."""
-    x0 = vector(ball['position'])
-    v0 = vector(ball['velocity'])
-    w0 = vector(ball['spin'])
-    _, _, press, needed = bent_rates(land, ball, x0, v0, w0)
-    if press <= 0.0:
-        ball['phase'] = FLIGHT
-        ball['step'] = 0.0
-        return
-    if ball['phase'] == ROLL and needed > material_under(land, ball)['static_friction'] * press:
-        ball['phase'] = SLIDE
-    ball['ending'] = STEP
-    h = min(1e-3, 0.02 * land.ball.radius / max(length(v0), 1e-3))
-    bent_step(land, ball, h)
-    if ball['phase'] == SLIDE:
-        before = slip(v0, w0, vector(ball['normal']), land.ball.radius)
-        after = slip_at_end(land, ball)
-        if length(before) > STILL and dot(before, after) <= 0.0:
-            bent_step(land, ball, h * length(before) / (length(before) + length(after)))
-            ball['ending'] = SLIP_STOPS
-
-
-@kernel
-def slip_at_end(land, ball):
-    """Slip of the ball at the end of its piece."""
-    place = position(ball, ball['span'])
-    _, normal = surface.nearest(land.ground, ball['support'], place)
-    return slip(speed_at(ball, ball['span']), vector(ball['twist'][3]), normal, land.ball.radius)
-
-
-@shared
-def bent_step(land, ball, h):
-    """Lay a piece of `h` seconds by the midpoint rule. Writes the ball's curve."""
-    r = land.ball.radius
-    x0 = vector(ball['position'])
-    v0 = vector(ball['velocity'])
-    w0 = vector(ball['spin'])
-    a0, dw0, _, _ = bent_rates(land, ball, x0, v0, w0)
-    am, dwm, _, _ = bent_rates(land, ball, along(x0, 0.5 * h, v0), along(v0, 0.5 * h, a0),
-                               along(w0, 0.5 * h, dw0))
-    x1 = along(x0, h, along(v0, 0.5 * h, a0))
-    distance, n1 = surface.nearest(land.ground, ball['support'], x1)
-    x1 = along(x1, r - distance, n1)
-    v1 = along(v0, h, am)
-    v1 = along(v1, -dot(v1, n1), n1)
-    w1 = along(w0, h, dwm)
-    if ball['phase'] == ROLL:
-        w1 = along(scale(1.0 / r, cross(n1, v1)), dot(w1, n1), n1)
-    a1, dw1, _, _ = bent_rates(land, ball, x1, v1, w1)
-    ball['span'] = h
-    put(ball['origin'], x0)
-    put(ball['twist'][3], w1)
-    lay(ball, sub(x1, x0), (v0, v1), (a0, a1), (dw0, dw1))

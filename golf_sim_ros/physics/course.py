@@ -33,6 +33,10 @@ class Course(NamedTuple):
     flagstick : bool
     bounds : tuple of (float, float), or None
         Corners of the polygon that a ball on the ground may not leave.
+    zones : tuple of (Material, tuple of (float, float))
+        Polygons that repaint the ground from above, later over earlier.
+    obstacles : tuple
+        Shapes that stand on the ground and are none.
     air : Air
     wind_profile : LogProfile, PowerProfile or UniformProfile
     effects : 'auto' or tuple of str
@@ -46,6 +50,8 @@ class Course(NamedTuple):
     hole: Optional[tuple] = None
     flagstick: bool = True
     bounds: Optional[tuple] = None
+    zones: tuple = ()
+    obstacles: tuple = ()
     air: Air = Air()
     wind_profile: NamedTuple = LogProfile()
     effects: Union[str, tuple] = 'auto'

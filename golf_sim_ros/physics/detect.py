@@ -7,14 +7,21 @@ acceleration at most A it therefore stays above the parabola
     gap(t + s) >= gap(t) + gap'(t) s - A s^2 / 2
 
 and it is safe to advance to that parabola's root. It is Newton's method from the safe side:
-it converges as fast, and can't tunnel.
+it converges as fast, and can't tunnel. Where a part has hollows of curvature at most K, the gap's rate
+can fall by another 2 K v^2 as long as the ball's centre is nearer than 1 / (2 K); from further away the
+ball's speed bounds how fast a gap closes.
+
+Many parts in the box around a piece are looked at stretch by stretch, each half as long as long as it
+is crowded: only those on the way are asked.
 """
 from math import sqrt
 
 from ._compile import kernel, shared
 from .ground import surface
-from .path import (corner, greatest_acceleration, least_acceleration, position, span_along, velocity)
-from .vector import add, along, dot, length, vector
+from .path import (corner, greatest_acceleration, greatest_speed, least_acceleration, position,
+                   span_along, velocity)
+from .state import NO_PART
+from .vector import add, along, dot, length, sub, vector
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
 NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
@@ -22,7 +29,9 @@ SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 NEVER = 1e300
 MOST_STEPS = 200
-IN_THE_AIR, ON_FLAT, ON_EDGE, CAUGHT = range(4)
+CROWD = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
+LEAST_STRETCH = 1e-4  # s
+IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, CAUGHT = range(5)
 
 
 @kernel
@@ -52,6 +61,17 @@ def closing_bend(ground, part, ball, normal, bend):
 
 
 @kernel
+def past_hollows(hollow, distance, gap, rate, bend, fastest):
+    """`safe_advance` over a part with hollows of curvature `hollow`, `distance` from the ball's centre."""
+    sure = gap / (fastest + 1e-9)
+    tube = 0.5 / hollow - distance
+    if tube <= 0.0:
+        return sure
+    bent = safe_advance(gap, rate, bend + 2.0 * hollow * fastest * fastest)
+    return max(sure, min(bent, tube / (fastest + 1e-9)))
+
+
+@kernel
 def leave(ground, part, ball, radius, until):
     """Time at which a ball that touches `part` tangentially is clear of it, or 0 if it presses on."""
     time = 1e-9
@@ -68,10 +88,12 @@ def leave(ground, part, ball, radius, until):
 
 
 @kernel
-def first_touch(ground, part, ball, radius, until):
-    """Time, at most `until`, up to which the piece is safe from `part`; whether it touches then."""
+def first_touch(ground, part, ball, radius, begin, until):
+    """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then."""
     bend = greatest_acceleration(ball)
-    time = 0.0
+    hollow = surface.hollow(ground, part)
+    fastest = greatest_speed(ball) if hollow > 0.0 else 0.0
+    time = begin
     for step in range(MOST_STEPS):
         place = position(ball, time)
         distance, normal = surface.nearest(ground, part, place)
@@ -93,9 +115,12 @@ def first_touch(ground, part, ball, radius, until):
                 if time >= until:
                     return until, False
                 continue
-        if step == 4:
-            bend = closing_bend(ground, part, ball, normal, bend)
-        time += safe_advance(gap, rate, bend)
+        if hollow > 0.0:
+            time += past_hollows(hollow, distance, gap, rate, bend, fastest)
+        else:
+            if step == 4:
+                bend = closing_bend(ground, part, ball, normal, bend)
+            time += safe_advance(gap, rate, bend)
         if time >= until:
             return until, False
     return time, False
@@ -107,36 +132,87 @@ def first_contact(ground, ball, radius, until, on):
 
     `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
     under it, where surfaces in that plane, and edges met tangentially, are seams and no obstacles;
-    ON_EDGE the part that supports it; CAUGHT all that holds it.
+    ON_EDGE the edge that supports it; ON_CURVE the smooth surface; CAUGHT all that holds it.
     """
+    begin = 0.0
+    stretch = until
     best = until
-    who = -1
+    while begin < until:
+        end = min(begin + stretch, until)
+        low, high = box(ball, begin, end, radius)
+        if end - begin > LEAST_STRETCH and is_crowded(ground, low, high):
+            stretch = 0.5 * (end - begin)
+            continue
+        best, who, hit = first_in_box(ground, ball, radius, begin, end, low, high, on)
+        if hit or best < end:
+            return best, who, hit
+        begin = end
+        stretch *= 2.0
+    return until, NO_PART, False
+
+
+@kernel
+def box(ball, begin, end, radius):
+    """Box around the ball on its piece from `begin` to `end`."""
+    if begin == 0.0 and end >= 0.5 * ball['span']:
+        x = span_along(ball, 0)
+        y = span_along(ball, 1)
+        z = span_along(ball, 2)
+        return ((x[0] - radius, y[0] - radius, z[0] - radius), (x[1] + radius, y[1] + radius, z[1] + radius))
+    a = position(ball, begin)
+    b = position(ball, end)
+    room = radius + 0.125 * greatest_acceleration(ball) * (end - begin) * (end - begin)
+    return ((min(a[0], b[0]) - room, min(a[1], b[1]) - room, min(a[2], b[2]) - room),
+            (max(a[0], b[0]) + room, max(a[1], b[1]) + room, max(a[2], b[2]) + room))
+
+
+@kernel
+def is_crowded(ground, low, high):
+    """Whether many parts have a point in the box, which is long."""
+    part = NO_PART
+    for _ in range(CROWD):
+        part = surface.next_part(ground, part + 1, low, high)
+        if part < 0:
+            return False
+    return True
+
+
+@kernel
+def first_in_box(ground, ball, radius, begin, end, low, high, on):
+    """`first_contact` from `begin` to `end` with what has a point in the box from `low` to `high`."""
+    best = end
+    who = NO_PART
     hit = False
-    x = span_along(ball, 0)
-    y = span_along(ball, 1)
-    z = span_along(ball, 2)
-    low = (x[0] - radius, y[0] - radius, z[0] - radius)
-    high = (x[1] + radius, y[1] + radius, z[1] + radius)
     foot = along(vector(ball['position']), -radius, vector(ball['normal']))
-    for part in range(surface.parts(ground)):
-        if surface.out_of_reach(ground, part, low, high):
-            continue
-        if on == ON_FLAT and surface.in_plane(ground, part, foot, vector(ball['normal'])):
-            continue
-        if on == CAUGHT and holds(ground, part, ball, radius):
-            continue
-        if on == ON_EDGE and same_edge(ground, part, ball, best):
-            continue
-        time, touches = first_touch(ground, part, ball, radius, best)
-        if touches and on == ON_FLAT:
-            _, normal = surface.nearest(ground, part, position(ball, time))
-            if dot(normal, vector(ball['normal'])) > 1.0 - 1e-9:
-                continue
-        if time < best or touches and not hit:
-            best = time
-            who = part
-            hit = touches
+    part = surface.next_part(ground, 0, low, high)
+    while part >= 0:
+        if not is_passed(ground, part, ball, radius, foot, best, on):
+            time, touches = first_touch(ground, part, ball, radius, begin, best)
+            if touches and on == ON_FLAT:
+                _, normal = surface.nearest(ground, part, position(ball, time))
+                touches = dot(normal, vector(ball['normal'])) <= 1.0 - 1e-9
+                if not touches:
+                    time = end
+            if time < best or touches and not hit:
+                best = time
+                who = part
+                hit = touches
+        part = surface.next_part(ground, part + 1, low, high)
     return best, who, hit
+
+
+@kernel
+def is_passed(ground, part, ball, radius, foot, until, on):
+    """Whether `part` is no obstacle to the ball because of what it is `on`."""
+    if on == ON_FLAT:
+        return surface.in_plane(ground, part, foot, vector(ball['normal']))
+    if on == CAUGHT:
+        return holds(ground, part, ball, radius)
+    if on == ON_CURVE:
+        return surface.goes_on(ground, ball['support'], part)
+    if on == ON_EDGE:
+        return same_edge(ground, part, ball, until)
+    return False
 
 
 @kernel
@@ -186,7 +262,31 @@ def first_border(ground, ball, radius, until):
         if time < best:
             best = time
             crosses = True
+    for i in range(surface.limits(ground, ball['support'])):
+        point, inward = surface.limit(ground, ball['support'], i)
+        time = passing(ball, along(point, radius, vector(ball['normal'])), inward, best)
+        if time < best:
+            best = time
+            crosses = True
     return best, crosses
+
+
+@kernel
+def passing(ball, point, inward, until):
+    """First time before `until` at which the piece passes the line through `point`, or `until`."""
+    time = 0.0
+    bend = max(0.0, -least_acceleration(ball, inward))
+    for _ in range(MOST_STEPS):
+        gap = dot(sub(position(ball, time), point), inward)
+        rate = dot(velocity(ball, time), inward)
+        if gap <= TOUCH:
+            if rate < 0.0:  # on the line from the start: as far past it as tells what is there
+                return time if time > 0.0 else min(until, 2.0 * surface.LOOK_AHEAD / -rate)
+            gap = TOUCH
+        time += max(safe_advance(gap, rate, bend), 1e-12)
+        if time >= until:
+            return until
+    return until
 
 
 @kernel

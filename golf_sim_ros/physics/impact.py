@@ -3,11 +3,12 @@
 from . import at_once
 from ._compile import kernel, shared
 from .caught import STALL, hold, is_caught, presses
-from .contact import STILL, settle, stand_on
+from .contact import material_number, material_of, settle, stand_on
 from .effects import felt_normal, pull
 from .ground import surface
 from .impulse import Bond, impulse, take
 from .material import restitution
+from .motion import STILL
 from .shot import note_landing
 from .state import BOUNCE, FLIGHT, SLIDE
 from .vector import ZERO, along, dot, length, put, scale, sub, vector
@@ -29,7 +30,7 @@ def meet(land, ball, number, now, log):
         put(ball['position'], place)
     supported = ball['phase'] != FLIGHT
     if supported and dot(normal, vector(ball['normal'])) > 1.0 - SEAM:
-        stand_on(land, ball, ball['target'], normal)
+        stand_on(land, ball, surface.support_of(land.ground, ball['target']), normal)
         settle(land, ball, now)
         return
     part, same = surface.touched(land.ground, place, land.ball.radius, ZERO)
@@ -49,7 +50,7 @@ def meet(land, ball, number, now, log):
 @kernel
 def bounce(land, ball, number, now, normal, log):
     """Apply the impact's impulse; return the rebound speed off `normal` and the restitution."""
-    material = land.materials[surface.material_of(land.ground, ball['target'])]
+    material = material_of(land, ball, ball['target'], normal)
     before = vector(ball['velocity'])
     spun = vector(ball['spin'])
     contacts = at_once.touched(land.ground, ball, land.ball.radius, normal)
@@ -78,7 +79,7 @@ def tell(land, ball, number, now, normal, before, log):
     event['time'] = now
     event['ball'] = number
     event['kind'] = BOUNCE
-    event['material'] = surface.material_of(land.ground, ball['target'])
+    event['material'] = material_number(land, ball, ball['target'], normal)
     put(event['position'], vector(ball['position']))
     put(event['normal'], normal)
     put(event['velocity_before'], before[0])
@@ -101,7 +102,7 @@ def after_impact(land, ball, now, impact, normal):
             if bounciness < 1.0:
                 ball['tail_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
             ball['tail_press'] = 0.5 * (1.0 + bounciness)
-            stand_on(land, ball, ball['target'], normal)
+            stand_on(land, ball, surface.support_of(land.ground, ball['target']), normal)
             ball['phase'] = SLIDE
             settle(land, ball, now)
             return

@@ -54,7 +54,13 @@ def material_names(course):
 
 def materials(course):
     """Materials of a course, in the order of their numbers."""
-    return tuple(dict.fromkeys(shape.material for shape in course.ground))
+    return tuple(dict.fromkeys([*(shape.material for shape in shapes(course)),
+                                *(material for material, _ in course.zones)]))
+
+
+def shapes(course):
+    """All that a course's balls can touch."""
+    return course.ground + course.obstacles
 
 
 def build(course, records, preset):
@@ -72,7 +78,7 @@ def build(course, records, preset):
 def ground(course):
     """`Ground` of a course for kernels."""
     number = {material: i for i, material in enumerate(materials(course))}
-    return ground_.build(course.ground, course.bounds, number)
+    return ground_.build(shapes(course), course.zones, course.bounds, None, number)
 
 
 def choose(names, course, balls, wind):

@@ -114,6 +114,17 @@ def greatest_acceleration(ball):
 
 
 @kernel
+def greatest_speed(ball):
+    """Bound on the speed over the piece."""
+    w = ball['path']
+    most = 0.0
+    for i in range(5):
+        step = sub(vector(w[i + 1]), vector(w[i]))
+        most = max(most, dot(step, step))
+    return 5.0 / ball['span'] * sqrt(most)
+
+
+@kernel
 def least_acceleration(ball, direction):
     """Bound from below on the acceleration along `direction` over the piece."""
     least = dot(bend(ball, 0), direction)

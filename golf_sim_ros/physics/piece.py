@@ -3,13 +3,15 @@
 from math import inf
 
 from . import path
-from ._compile import entry, kernel, shared
+from ._compile import borrowed, entry, kernel, shared
+from .bent import bent_piece
 from .caught import caught_step, is_caught
-from .contact import STILL, bent_piece, flat_piece, settle, stand_on
-from .detect import CAUGHT, IN_THE_AIR, ON_EDGE, ON_FLAT, first_border, first_contact
+from .contact import flat_piece, material_number, settle, stand_on
+from .detect import CAUGHT, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_border, first_contact
 from .ground import surface
 from .impact import cross_border
 from .integrators import step
+from .motion import STILL
 from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
 from .vector import ZERO, along, cross, dot, length, put, scale, vector
 
@@ -32,7 +34,7 @@ def lay_next(model, ball, now):
         return
     if ball['phase'] == FLIGHT:
         on = IN_THE_AIR
-        step(model.method, model, ball)
+        step(model, ball)
     until = ball['span']
     if is_caught(ball):
         on = CAUGHT
@@ -41,7 +43,7 @@ def lay_next(model, ball, now):
     if hit:
         ball['ending'] = HIT
         ball['target'] = part
-    if on == ON_FLAT:
+    if on == ON_FLAT or on == ON_CURVE:
         until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
         if crosses:
             ball['ending'] = BORDER
@@ -66,8 +68,9 @@ def lay_contact(model, ball, now):
     if goes_on(land, ball):
         flat_piece(land, ball, now)
         return ON_FLAT
-    bent_piece(land, ball)
-    return ON_EDGE
+    ball['material'] = material_number(land, ball, ball['support'], normal)
+    bent_piece(model, ball)
+    return ON_CURVE if surface.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
 
 
 @kernel
@@ -101,6 +104,7 @@ def put_down(model, ball, position, depth):
     Writes position, support and normal; the ball is at rest. Returns whether it touches anything,
     and how deep [m] it lies in the ground.
     """
+    model = borrowed(model)
     put(ball['position'], position)
     put(ball['velocity'], ZERO)
     put(ball['spin'], ZERO)

@@ -143,8 +143,7 @@ def _played(course, strikes, gusts, effects, accuracy):
 
 def ground_height(course, x, y):
     """Height [m] and material's name of the highest ground at `x`, `y`, or None where there is none."""
-    shapes = model.ground(course)
-    z, part = surface.top(shapes, x, y)
+    z, part, number = surface.look_down(model.ground(course), x, y)
     if part < 0:
         return None
-    return z, model.material_names(course)[surface.material_of(shapes, part)]
+    return z, model.material_names(course)[number]

@@ -111,24 +111,20 @@ def move(model, ball):
 @kernel
 def push_out(land, ball, time, absorbs):
     """Push the ball out of what it is in, and let it bounce. Writes motion and phase."""
-    reach = land.ball.radius
-    low = along(vector(ball['position']), -1.0, (reach, reach, reach))
-    high = along(vector(ball['position']), 1.0, (reach, reach, reach))
-    for part in range(surface.parts(land.ground)):
-        if surface.out_of_reach(land.ground, part, low, high):
-            continue
+    low, high = surface.around(vector(ball['position']), land.ball.radius)
+    part = surface.next_part(land.ground, 0, low, high)
+    while part >= 0:
         x = vector(ball['position'])
         distance, normal = surface.nearest(land.ground, part, x)
-        if distance >= land.ball.radius or not surface.touchable(land.ground, part, x):
-            continue
-        put(ball['position'], along(x, land.ball.radius - distance, normal))
-        if dot(vector(ball['velocity']), normal) >= 0.0:
-            continue
-        note_landing(ball, time)
-        number = surface.material_of(land.ground, part)
-        rebound(ball, land.materials[number], absorbs[number], normal)
-        if length(vector(ball['velocity'])) < STOPPED:
-            ball['phase'] = REST
+        if distance < land.ball.radius and surface.touchable(land.ground, part, x):
+            put(ball['position'], along(x, land.ball.radius - distance, normal))
+            if dot(vector(ball['velocity']), normal) < 0.0:
+                note_landing(ball, time)
+                number = surface.material_of(land.ground, part, x)
+                rebound(ball, land.materials[number], absorbs[number], normal)
+                if length(vector(ball['velocity'])) < STOPPED:
+                    ball['phase'] = REST
+        part = surface.next_part(land.ground, part + 1, low, high)
 
 
 @kernel

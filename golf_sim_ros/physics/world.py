@@ -188,7 +188,7 @@ class World:
     def _above(self, x, y):
         """Place over all ground at x, y, and how far down from there ground may lie."""
         ground, radius = self._model.land.ground, self._model.land.ball.radius
-        highest = max(surface.top(ground, x, y)[0], ground.highest) + 3 * radius
+        highest = max(surface.look_down(ground, x, y)[0], ground.highest) + 3 * radius
         return (x, y, highest), min(highest - ground.lowest + 3 * radius, FALL)
 
     def _set_off(self, ball, velocity, spin):

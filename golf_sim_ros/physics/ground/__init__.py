@@ -19,8 +19,17 @@ KINDS = [module for module in
          if hasattr(module, 'SHAPES')]
 
 
-def build(shapes, bounds, material_number):
-    """`Ground` of a course's `shapes` and `bounds`.
+def build(shapes, zones, bounds, hole, material_number):
+    """`Ground` of `shapes`, ground and obstacles.
+
+    Parameters
+    ----------
+    shapes : sequence of shapes
+    zones : sequence of (Material, outline)
+    bounds : outline or None
+    hole : (x, y, radius, lowest, highest) or None
+        Circle that is cut into ground at those heights.
+    material_number : dict of Material to int
 
     Raises
     ------
@@ -32,22 +41,27 @@ def build(shapes, bounds, material_number):
         if not isinstance(shape, known):
             raise TypeError(f'{type(shape).__name__} is not a ground shape; known: '
                             + ', '.join(sorted(s.__name__ for s in known)))
-    kinds = tuple(kind.build([s for s in shapes if isinstance(s, kind.SHAPES)], material_number)
-                  for kind in KINDS)
-    outlines = [o for kind in KINDS for s in shapes if isinstance(s, kind.SHAPES) for o in kind.plan(s)]
-    heights = [kind.heights(s) for kind in KINDS for s in shapes if isinstance(s, kind.SHAPES)]
-    return Ground(kinds, _borders(outlines, [bounds] if bounds else []),
-                  polygons([bounds] if bounds else []),
+    by_kind = [(kind, [s for s in shapes if isinstance(s, kind.SHAPES)]) for kind in KINDS]
+    kinds = tuple(kind.build(own, material_number) for kind, own in by_kind)
+    outlines = [o for kind, own in by_kind for s in own for o in kind.plan(s)]
+    outlines += [outline for _, outline in zones]
+    heights = [kind.heights(s) for kind, own in by_kind for s in own]
+    return Ground(kinds, _borders(outlines, [bounds] if bounds else [], hole),
+                  polygons([outline for _, outline in zones]),
+                  np.array([material_number[material] for material, _ in zones], np.int64),
+                  polygons([bounds] if bounds else []), np.array(hole or (), float),
                   float(min((low for low, _ in heights), default=0.0)),
                   float(max((high for _, high in heights), default=0.0)))
 
 
-def _borders(outlines, bounds):
+def _borders(outlines, bounds, hole):
     rows = []
     for is_bounds, outline in [(0, o) for o in outlines] + [(1, o) for o in bounds]:
         for start, end in sides(outline):
             start, end = np.asarray(start, float), np.asarray(end, float)
             size = np.linalg.norm(end - start)
             if size > 1e-9:  # an upright patch has no width in plan
-                rows.append((start, (end - start) / size, size, is_bounds))
+                rows.append((start, (end - start) / size, size, 0.0, is_bounds))
+    if hole:
+        rows.append((hole[:2], (1.0, 0.0), 0.0, hole[2], 0))
     return np.array(rows, BORDER)

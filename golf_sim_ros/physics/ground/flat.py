@@ -110,16 +110,24 @@ def _parts(kind):
     return len(kind.faces) + len(kind.edges)
 
 
-@laws.out_of_reach.register(Flats)
-def _out_of_reach(kind, part, low, high):
-    if part < len(kind.faces):
-        box_low = kind.faces[part]['low']
-        box_high = kind.faces[part]['high']
-    else:
-        box_low = kind.edges[part - len(kind.faces)]['low']
-        box_high = kind.edges[part - len(kind.faces)]['high']
-    return (low[2] > box_high[2] or high[0] < box_low[0] or low[0] > box_high[0]
-            or high[1] < box_low[1] or low[1] > box_high[1] or high[2] < box_low[2])
+@laws.next_part.register(Flats)
+def _next_part(kind, part, low, high):
+    faces = len(kind.faces)
+    while part < faces + len(kind.edges):
+        if part < faces:
+            if meets(kind.faces[part], low, high):
+                break
+        elif meets(kind.edges[part - faces], low, high):
+            break
+        part += 1
+    return part
+
+
+@kernel
+def meets(row, low, high):
+    """Whether the box of a face or edge meets the box from `low` to `high`."""
+    return not (low[2] > row['high'][2] or high[0] < row['low'][0] or low[0] > row['high'][0]
+                or high[1] < row['low'][1] or low[1] > row['high'][1] or high[2] < row['low'][2])
 
 
 @kernel

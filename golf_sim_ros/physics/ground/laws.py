@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a kind of ground must be able to say. All shapes of a kind are one record of arrays.
 
-A kind is made of convex parts, numbered from 0: convexity is what lets contacts be found without
-ever stepping over one. A new kind registers a body for each of these laws.
+A kind is made of parts, numbered from 0. They are convex, or their hollows have a bounded curvature:
+that is what lets contacts be found without ever stepping over one. A new kind registers a body for
+each of these laws that it has a word in.
 """
 from .._compile import generic
+from ..vector import ZERO, along, length, scale, sub
 
 NOTHING = (-1e300, -1)
 
@@ -16,9 +18,12 @@ def parts(kind):
 
 
 @generic
-def out_of_reach(kind, part, low, high):
-    """Whether no point of `part` lies in the box from `low` to `high`."""
-    return True
+def next_part(kind, part, low, high):
+    """First part, from number `part` on, that may have a point in the box from `low` to `high`.
+
+    Where there is none, the number of parts or more.
+    """
+    return 0
 
 
 @generic
@@ -28,6 +33,24 @@ def nearest(kind, part, point):
     Negative inside a solid part, where the vector still points out of it.
     """
     return 0.0, (0.0, 0.0, 1.0)
+
+
+@generic
+def turn(kind, part, point, velocity):
+    """Rate of change of the unit vector that `nearest` gives, as `point` moves at `velocity`."""
+    speed = length(velocity)
+    if speed == 0.0:
+        return ZERO
+    dt = 1e-6 / speed
+    _, before = nearest(kind, part, along(point, -dt, velocity))
+    _, after = nearest(kind, part, along(point, dt, velocity))
+    return scale(0.5 / dt, sub(after, before))
+
+
+@generic
+def hollow(kind, part):
+    """Greatest curvature [1/m] of the hollows of `part`, seen from outside; 0 of a convex part."""
+    return 0.0
 
 
 @generic
@@ -46,6 +69,36 @@ def flat_under(kind, part, point):
 def in_plane(kind, part, point, normal):
     """Whether `part` belongs to the plane through `point` with `normal`, as surface or edge."""
     return False
+
+
+@generic
+def limits(kind):
+    """Number of straight lines at which flat parts end, beside outlines in plan."""
+    return 0
+
+
+@generic
+def limit(kind, part, i):
+    """Line `i` at which `part` ends: a point of it, and the unit vector from there into the part."""
+    return ZERO, ZERO
+
+
+@generic
+def support_of(kind, part):
+    """Part that a ball stands on where it touches `part`: of a smooth surface, all of it."""
+    return part
+
+
+@generic
+def goes_on(kind, part, other):
+    """Whether `other` is the same smooth surface as `part`, a support, and so no obstacle on it."""
+    return False
+
+
+@generic
+def is_ground(kind):
+    """Whether zones repaint it and the hole is cut into it."""
+    return True
 
 
 @generic

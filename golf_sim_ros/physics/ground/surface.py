@@ -9,33 +9,64 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import entry, kernel, literal_unroll, shared
+from .._compile import borrowed, entry, kernel, literal_unroll, shared
 from ..state import NO_PART
-from ..vector import along, dot
+from ..vector import ZERO, along, dot, scale
 from . import laws
 from .flat import SAME_HEIGHT
 from .polygon import Polygons, inside
 
 NO_GROUND = -1e300
 LOOK_AHEAD = 1e-7  # m: on a border, what a ball is on is decided this far ahead
+RIM_REACH = 0.02  # m: so near to the height of its rim the hole cuts whatever ground is there
 
-BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('bounds', 'i8')],
-                  align=True)
+BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8'),
+                   ('bounds', 'i8')], align=True)
 
 
 class Ground(NamedTuple):
     """Everything that a ball can touch.
 
     ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
-    surface may begin; ``bounds`` holds no polygon or one; all ground but tilted planes lies between
-    the heights ``lowest`` and ``highest``.
+    surface may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
+    ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
+    greatest height of the rim; all ground but tilted planes lies between ``lowest`` and ``highest``.
     """
 
     kinds: tuple
     borders: np.ndarray
+    zones: Polygons
+    zone_materials: np.ndarray
     bounds: Polygons
+    hole: np.ndarray
     lowest: float
     highest: float
+
+
+def of_its_kind(law, otherwise):
+    """Kernel that asks `law` of the kind that a part, numbered among those of all kinds, belongs to."""
+    @shared
+    def asked(ground, part, *more):
+        result = otherwise
+        for kind in literal_unroll(ground.kinds):
+            n = laws.parts(kind)
+            if 0 <= part < n:
+                result = law(kind, part, *more)
+            part -= n
+        return result
+
+    asked.__doc__ = law.__doc__
+    return asked
+
+
+nearest = of_its_kind(laws.nearest, (1e300, (0.0, 0.0, 1.0)))
+turn = of_its_kind(laws.turn, ZERO)
+hollow = of_its_kind(laws.hollow, 0.0)
+flat_under = of_its_kind(laws.flat_under, False)
+in_plane = of_its_kind(laws.in_plane, False)
+limit = of_its_kind(laws.limit, (ZERO, ZERO))
+_touchable = of_its_kind(laws.touchable, False)
+_own_material = of_its_kind(laws.material_of, 0)
 
 
 @kernel
@@ -47,80 +78,101 @@ def parts(ground):
     return total
 
 
-@kernel
-def out_of_reach(ground, part, low, high):
-    """Whether `part` has no point in the box from `low` to `high`."""
-    result = True
+@shared
+def next_part(ground, part, low, high):
+    """First part, from `part` on, that may have a point in the box from `low` to `high`, or NO_PART."""
+    found = NO_PART
+    before = 0
+    for kind in literal_unroll(ground.kinds):
+        n = laws.parts(kind)
+        if found == NO_PART and part < before + n:
+            k = laws.next_part(kind, max(part - before, 0), low, high)
+            if k < n:
+                found = before + k
+        before += n
+    return found
+
+
+@shared
+def limits(ground, part):
+    """Number of straight lines at which `part` ends, beside outlines in plan."""
+    result = 0
     for kind in literal_unroll(ground.kinds):
         n = laws.parts(kind)
         if 0 <= part < n:
-            result = laws.out_of_reach(kind, part, low, high)
+            result = laws.limits(kind)
         part -= n
     return result
 
 
 @shared
-def nearest(ground, part, point):
-    """Distance of `point` from `part` and the unit vector from there to `point`."""
-    distance = 1e300
-    normal = (0.0, 0.0, 1.0)
+def is_ground(ground, part):
+    """Whether zones repaint `part` and the hole is cut into it."""
+    result = False
     for kind in literal_unroll(ground.kinds):
         n = laws.parts(kind)
         if 0 <= part < n:
-            distance, normal = laws.nearest(kind, part, point)
+            result = laws.is_ground(kind)
         part -= n
-    return distance, normal
+    return result
+
+
+@shared
+def support_of(ground, part):
+    """Part that a ball stands on where it touches `part`: of a smooth surface, all of it."""
+    result = part
+    before = 0
+    for kind in literal_unroll(ground.kinds):
+        n = laws.parts(kind)
+        if before <= part < before + n:
+            result = before + laws.support_of(kind, part - before)
+        before += n
+    return result
+
+
+@shared
+def goes_on(ground, part, other):
+    """Whether `other` is the same smooth surface as `part`, a support, and so no obstacle on it."""
+    result = False
+    for kind in literal_unroll(ground.kinds):
+        n = laws.parts(kind)
+        if 0 <= part < n and 0 <= other < n:
+            result = laws.goes_on(kind, part, other)
+        part -= n
+        other -= n
+    return result
 
 
 @shared
 def touchable(ground, part, point):
     """Whether the surface exists where `part` is nearest to `point`, seen from there."""
-    result = False
-    for kind in literal_unroll(ground.kinds):
-        n = laws.parts(kind)
-        if 0 <= part < n:
-            result = laws.touchable(kind, part, point)
-        part -= n
-    return result
+    if len(ground.hole) > 0 and is_ground(ground, part):
+        distance, normal = nearest(ground, part, point)
+        if in_hole(ground.hole, along(point, -distance, normal)):
+            return False
+    return _touchable(ground, part, point)
 
 
 @kernel
-def flat_under(ground, part, point):
-    """Whether `part` is flat around the place nearest to `point`."""
-    result = False
-    for kind in literal_unroll(ground.kinds):
-        n = laws.parts(kind)
-        if 0 <= part < n:
-            result = laws.flat_under(kind, part, point)
-        part -= n
-    return result
+def in_hole(hole, place):
+    """Whether the ground at `place` is cut away by the hole."""
+    dx = place[0] - hole[0]
+    dy = place[1] - hole[1]
+    return (dx * dx + dy * dy < hole[2] * hole[2] and hole[3] - RIM_REACH < place[2] < hole[4] + RIM_REACH)
 
 
-@kernel
-def in_plane(ground, part, point, normal):
-    """Whether `part` belongs to the plane through `point` with `normal`, as surface or edge."""
-    result = False
-    for kind in literal_unroll(ground.kinds):
-        n = laws.parts(kind)
-        if 0 <= part < n:
-            result = laws.in_plane(kind, part, point, normal)
-        part -= n
-    return result
+@shared
+def material_of(ground, part, point):
+    """Number of the material of `part` where it is touched at `point`: of the last zone there, if any."""
+    if len(ground.zone_materials) > 0 and is_ground(ground, part):
+        for back in range(1, len(ground.zone_materials) + 1):
+            i = len(ground.zone_materials) - back
+            if inside(ground.zones, i, point[0], point[1]):
+                return ground.zone_materials[i]
+    return _own_material(ground, part)
 
 
-@entry
-def material_of(ground, part):
-    """Number of the material of `part`."""
-    result = 0
-    for kind in literal_unroll(ground.kinds):
-        n = laws.parts(kind)
-        if 0 <= part < n:
-            result = laws.material_of(kind, part)
-        part -= n
-    return result
-
-
-@entry
+@shared
 def top(ground, x, y):
     """Height of the highest surface at `x`, `y`, and its part; NO_GROUND, NO_PART without one."""
     best = NO_GROUND
@@ -133,6 +185,21 @@ def top(ground, x, y):
             who = before + part
         before += laws.parts(kind)
     return best, who
+
+
+@entry
+def look_down(ground, x, y):
+    """Height of the highest surface at `x`, `y`, its part, and the number of its material; see `top`."""
+    ground = borrowed(ground)
+    z, part = top(ground, x, y)
+    return z, part, material_of(ground, part, (x, y, z))
+
+
+@kernel
+def around(point, reach):
+    """Box of half width `reach` around `point`."""
+    box = (reach, reach, reach)
+    return along(point, -1.0, box), along(point, 1.0, box)
 
 
 @kernel
@@ -158,22 +225,19 @@ def touched(ground, point, radius, ahead):
     best = NO_PART
     best_flat = False
     best_normal = (0.0, 0.0, 1.0)
-    reach = radius + SAME_HEIGHT
-    low = along(point, -1.0, (reach, reach, reach))
-    high = along(point, 1.0, (reach, reach, reach))
+    low, high = around(point, radius + SAME_HEIGHT)
     next_point = along(point, LOOK_AHEAD, ahead)
-    for part in range(parts(ground)):
-        if out_of_reach(ground, part, low, high):
-            continue
+    part = next_part(ground, 0, low, high)
+    while part >= 0:
         distance, normal = nearest(ground, part, point)
-        if abs(distance - radius) > SAME_HEIGHT or not touchable(ground, part, next_point):
-            continue
-        flat = flat_under(ground, part, next_point)
-        if flat or not best_flat:
-            if best == NO_PART or flat > best_flat or normal[2] > best_normal[2] - 1e-9:
-                best = part
+        if abs(distance - radius) <= SAME_HEIGHT and touchable(ground, part, next_point):
+            flat = flat_under(ground, part, next_point)
+            if (flat or not best_flat) and (best == NO_PART or flat > best_flat
+                                            or normal[2] > best_normal[2] - 1e-9):
+                best = support_of(ground, part)
                 best_flat = flat
                 best_normal = normal
+        part = next_part(ground, part + 1, low, high)
     return best, best_normal
 
 
@@ -181,13 +245,13 @@ def touched(ground, point, radius, ahead):
 def depth(ground, point, radius):
     """How deep [m] a ball at `point` lies in the ground; 0 where it is clear."""
     deepest = 0.0
-    low = along(point, -1.0, (radius, radius, radius))
-    high = along(point, 1.0, (radius, radius, radius))
-    for part in range(parts(ground)):
-        if not out_of_reach(ground, part, low, high):
-            distance, _ = nearest(ground, part, point)
-            if radius - distance > deepest and touchable(ground, part, point):
-                deepest = radius - distance
+    low, high = around(point, radius)
+    part = next_part(ground, 0, low, high)
+    while part >= 0:
+        distance, _ = nearest(ground, part, point)
+        if radius - distance > deepest and touchable(ground, part, point):
+            deepest = radius - distance
+        part = next_part(ground, part + 1, low, high)
     return deepest
 
 
@@ -203,8 +267,11 @@ def distance_in_plan(border, x, y):
     oy = dy - t * ey
     size = sqrt(ox * ox + oy * oy)
     if size == 0.0:
-        return 0.0, (-ey, ex, 0.0)
-    return size, (ox / size, oy / size, 0.0)
+        return border['radius'], (-ey, ex, 0.0)
+    out = (ox / size, oy / size, 0.0)
+    if size < border['radius']:
+        return border['radius'] - size, scale(-1.0, out)
+    return size - border['radius'], out
 
 
 @kernel

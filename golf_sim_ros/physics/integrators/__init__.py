@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Integrators of flight: one file each, found by themselves.
+"""Integrators: one file each, found by themselves.
 
 A Runge-Kutta method is a record with a table; `step` is shared. A method of another kind registers
 its own body for `step`.
@@ -8,7 +8,8 @@ import importlib
 import pkgutil
 from typing import Callable, NamedTuple
 
-from .runge_kutta import step  # noqa: F401
+from .._compile import shared
+from . import runge_kutta
 
 
 class Method(NamedTuple):
@@ -24,3 +25,9 @@ for _module in pkgutil.iter_modules(__path__):
     _found = importlib.import_module(f'{__name__}.{_module.name}')
     if hasattr(_found, 'METHOD'):
         METHODS[_module.name] = Method(_found.METHOD, _found.METHOD._fields[0])
+
+
+@shared
+def step(model, ball):
+    """Lay the ball's next piece: one step of the model's method. Writes curve, span, step, ending."""
+    runge_kutta.step(model.method, model, ball)

@@ -16,14 +16,14 @@ class SemiImplicitEuler(NamedTuple):
 
 @runge_kutta.step.register(SemiImplicitEuler)
 def _step(method, model, ball):
-    h = method.length
+    h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
     runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
     rates = ball['stages'][0]
     force = vector(rates[3:6])
     torque = vector(rates[6:9])
     v1 = along(vector(ball['velocity']), h, force)
     ball['span'] = h
-    ball['step'] = h
+    ball['step'] = method.length
     put(ball['origin'], vector(ball['position']))
     put(ball['twist'][3], along(vector(ball['spin']), h, torque))
     # A straight line at the new velocity, as such an engine moves the ball.

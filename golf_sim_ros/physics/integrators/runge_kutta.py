@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One step of flight, shared by all Runge-Kutta methods."""
+"""One step of flight, or along ground that is not flat, shared by all Runge-Kutta methods."""
 from math import inf, sqrt
 
 import numpy as np
 
 from .._compile import generic, kernel
-from ..effects import flight_rates, pull, wind_at
+from ..effects import pull, wind_at
+from ..motion import rates
 from ..path import lay
 from ..state import STEP
 from ..vector import along, dot, length, put, sub, vector
@@ -54,11 +55,11 @@ def next_step(method, h, error):
 def stage(model, ball, i, state):
     """Write stage `i`: rates of `state`, the position, velocity and spin in one tuple."""
     x, y, z, u, v, w, p, q, r = state
-    force, torque = flight_rates(model.effects, model.land.ground, (x, y, z), (u, v, w), (p, q, r))
-    rates = ball['stages'][i]
-    put(rates[0:3], (u, v, w))
-    put(rates[3:6], force)
-    put(rates[6:9], torque)
+    force, torque = rates(model, ball, (x, y, z), (u, v, w), (p, q, r))
+    row = ball['stages'][i]
+    put(row[0:3], (u, v, w))
+    put(row[3:6], force)
+    put(row[6:9], torque)
     ball['evaluations'] += 1
 
 
@@ -119,7 +120,7 @@ def hop(model, ball):
 
 @generic
 def step(method, model, ball):
-    """Lay the next piece of flight: one step from the ball's state. Writes curve, span, step."""
+    """Lay the next piece: one step from the ball's state. Writes curve, span, step."""
     rows = table(method)
     weights = error_weights(method)
     last = len(rows) - 1

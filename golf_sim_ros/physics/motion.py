@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The equations of motion: of a ball that flies, and of one that follows ground which is not flat."""
+from ._compile import kernel, shared
+from .effects import flight_rates, pull
+from .ground import surface
+from .impulse import slip
+from .state import FLIGHT, SLIDE
+from .vector import ZERO, add, along, cross, dot, length, scale, sub, unit
+
+STILL = 1e-9  # m/s: slower than this is not moving
+
+
+@kernel
+def rates(model, ball, position, velocity, spin):
+    """Acceleration and rate of change of spin of a ball, in flight or in contact."""
+    if ball['phase'] == FLIGHT:
+        return flight_rates(model.effects, model.land.ground, position, velocity, spin)
+    force, torque, _, _ = following_rates(model.land, ball, position, velocity, spin)
+    return force, torque
+
+
+@kernel
+def material_under(land, ball):
+    """Row of the material that the ball touches."""
+    return land.materials[ball['material']]
+
+
+@kernel
+def brake(material, press, downhill, inertia):
+    """Deceleration of a rolling ball: what rolling resistance asks for and grip can give.
+
+    Friction must brake, and turn the ball as it speeds up downhill, with k/(1 + k) of that pull. So a
+    ball holds where (5/7) tan <= rolling resistance and tan <= static friction.
+    """
+    grip = material['static_friction'] * press - inertia / (1.0 + inertia) * length(downhill)
+    return min(material['rolling_resistance'] * press, max(grip, 0.0))
+
+
+@shared
+def following_rates(land, ball, place, velocity, spin):
+    """Acceleration, rate of spin, press, and grip needed, of a ball that follows ground which is not flat.
+
+    A press below 0 means that the ground would have to pull.
+
+    With n' the rate of the normal: staying on the surface demands v' n = -v n', so the ground
+    presses with -(g n + v n') per mass. Grip also turns spin about the normal, w_n, into motion:
+    (1 + k) v'_t = g_t + k r w_n (n x n'). A sliding ball feels dynamic friction against its slip
+    instead, or, where it only begins to slip, along the grip that it lacks.
+    """
+    r = land.ball.radius
+    k = land.ball.inertia
+    _, normal = surface.nearest(land.ground, ball['support'], place)
+    turn = surface.turn(land.ground, ball['support'], place, velocity)
+    press, downhill = surface.slope(pull(land.effects, place), normal)
+    material = material_under(land, ball)
+    pressing = press - dot(velocity, turn)
+    press = max(pressing, 0.0)
+    about = dot(spin, normal)
+    free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
+    if length(velocity) > STILL:
+        free = along(free, -brake(material, press, downhill, k) / length(velocity), velocity)
+    friction = sub(free, downhill)
+    needed = length(friction)
+    if ball['phase'] == SLIDE:
+        against = scale(-1.0, slip(velocity, spin, normal, r))
+        if length(against) <= STILL:
+            against = friction
+        friction = scale(material['dynamic_friction'] * press, unit(against, ZERO))
+    force = along(add(downhill, friction), -dot(velocity, turn), normal)
+    torque = scale(-1.0 / (k * r), cross(normal, friction))
+    if material['pivot_friction'] > 0.0 and abs(about) * r > STILL:
+        winding = material['pivot_friction'] * press / (k * r * r)
+        torque = along(torque, -winding if about > 0.0 else winding, normal)
+    return force, torque, pressing, needed
