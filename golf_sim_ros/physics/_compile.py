@@ -215,16 +215,16 @@ if numba:
         return view._getvalue()
 
     @intrinsic
-    def _borrow(typing, record):
+    def _borrowed(typing, record):
         def build(context, builder, signature, args):
             if isinstance(record, types.Array):
                 return _view(context, builder, record, args[0])
             return cgutils.alloca_once_value(builder, args[0])
         return (record if isinstance(record, types.Array) else _Reference(record))(record), build
 
-    @overload(borrowed, inline='always')  # what it points to lies in the entry's own frame
-    def _borrowed(record):
-        return lambda record: _borrow(record)
+    if not numba.config.DISABLE_JIT:
+        # In the entry itself, whose frame then holds the record: an overload would have one of its own.
+        borrowed = _borrowed  # noqa: F811
 
 
 GENERIC = {'forceinline': True, 'no_cpython_wrapper': True, 'pipeline_class': _Drafting} if numba else {}

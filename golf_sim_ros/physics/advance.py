@@ -8,57 +8,64 @@ read at the time asked for. Nothing ever steps to a tick, so paths do not depend
 import numpy as np
 
 from ._compile import borrowed, entry, kernel
+from .bump import bump
 from .caught import hold, is_caught
 from .contact import settle
+from .crowd import AGE, MEMBERS, collide, first_due, plant, renew
 from .effects import blow
 from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
 from .shot import end_shot, keep_highest, tee_off
-from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, OUT, SLIP_STOPS, STEP, TIME_LIMIT, moves)
+from .pair import first_meeting
+from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, LOST, MEETING, OUT, SHOT_ENDS, SLIP_STOPS, STEP,
+                    TIME_LIMIT, moves)
+from .together import disperse, enlist
 from .vector import ZERO, along, put, unit, vector
 
 DONE, LOG_FULL = range(2)
-EVENTS_A_BALL = 2  # that one piece's end can log
+EVENTS_A_BALL = 2  # that one piece's end can log, but for impacts of balls
 
 
 @entry
-def advance(model, balls, until, log):
-    """Advance `balls` to the time `until` [s]. Writes balls and log.
+def advance(model, balls, until, crowd, log):
+    """Advance `balls` to the time `until` [s]. Writes balls, crowd and log.
 
     Returns DONE, or LOG_FULL when `log` must be emptied before going on.
     """
     model = borrowed(model)
     balls = borrowed(balls)
+    crowd = borrowed(crowd)
     log = borrowed(log)
+    for i in range(len(balls)):
+        crowd.ends[i] = balls[i]['end']
+    if collide(crowd) and crowd.count[AGE] >= len(balls):
+        plant(crowd, balls, model.land.ball.radius)
     while True:
-        i = first_due(balls, until)
+        i = first_due(crowd, until)
         if i < 0:
             break
-        if log.count[0] + EVENTS_A_BALL > len(log.events):
+        if 2 * log.count[0] > len(log.events):
             return LOG_FULL
-        resolve(model, balls[i], i, log)
-        lay_next(model, balls[i], balls[i]['end'])
+        now = balls[i]['end']
+        enlist(crowd, i)
+        resolve(model, balls, i, crowd, log)
+        for k in range(crowd.count[MEMBERS]):
+            finish(model, balls[crowd.members[k]], crowd.members[k], now, log)
+            lay(model, balls, crowd.members[k], now, crowd)
+        disperse(crowd)
     for i in range(len(balls)):
         read(balls[i], until)
     return DONE
 
 
 @kernel
-def first_due(balls, until):
-    """Ball whose piece ends first, at `until` at the latest, or -1."""
-    who = -1
-    first = until
-    for i in range(len(balls)):
-        if balls[i]['end'] < first or who < 0 and balls[i]['end'] == first:
-            first = balls[i]['end']
-            who = i
-    return who
+def resolve(model, balls, i, crowd, log):
+    """Bring ball `i` to the end of its piece and let happen what ends it.
 
-
-@kernel
-def resolve(model, ball, number, log):
-    """Bring the ball to the end of its piece and let happen what ends it."""
+    Other balls that this moves become members of the crowd.
+    """
+    ball = balls[i]
     now = ball['end']
     ending = ball['ending']
     if ending != LAUNCH:
@@ -67,7 +74,9 @@ def resolve(model, ball, number, log):
     if ending == LAUNCH:
         launch(model, ball, now)
     elif ending == HIT:
-        meet(model.land, ball, number, now, log)
+        meet(model.land, balls, i, now, crowd, log)
+    elif ending == MEETING:
+        bump(model.land, balls, i, now, crowd, log)
     elif ending == BORDER:
         cross_border(model.land, ball, now)
     elif is_caught(ball):
@@ -80,10 +89,31 @@ def resolve(model, ball, number, log):
         elif ending == BALL_STOPS:
             put(ball['velocity'], ZERO)
         settle(model.land, ball, now)
-    if is_out(model, ball):
+
+
+@kernel
+def finish(model, ball, number, now, log):
+    """End the shot of a ball that has stopped, is lost, or has been on its way for too long."""
+    if moves(ball['phase']) and is_out(model, ball):
         ball['phase'] = OUT
-    if ball['playing'] and (not moves(ball['phase']) or ending == TIME_LIMIT):
-        end_shot(ball, number, now, log)
+        if not ball['playing']:
+            end_shot(ball, number, now, LOST, log)
+    if ball['playing'] and (not moves(ball['phase']) or ball['ending'] == TIME_LIMIT):
+        end_shot(ball, number, now, SHOT_ENDS, log)
+
+
+@kernel
+def lay(model, balls, i, now, crowd):
+    """Lay ball `i`'s next piece, up to where it meets another ball. Writes piece and crowd."""
+    ball = balls[i]
+    lay_next(model, ball, now)
+    if collide(crowd) and moves(ball['phase']):
+        time, other, hit = first_meeting(crowd, balls, i, model.land.ball.radius, now, ball['end'])
+        if time < ball['end'] or hit:
+            ball['end'] = time
+            ball['ending'] = MEETING if hit else STEP
+            ball['target'] = other
+    renew(crowd, balls, i, model.land.ball.radius)
 
 
 @kernel
@@ -101,11 +131,11 @@ def is_out(model, ball):
 
 
 @entry
-def play_all(model, ball, strikes, gusts, log):
+def play_all(model, ball, strikes, gusts, crowd, log):
     """Play shots one after the other, each from the state in `ball`. Returns the balls at the end.
 
     `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
-    the strike, the first 0, and the wind from then on; `log` is scratch.
+    the strike, the first 0, and the wind from then on; `crowd` and `log` are scratch.
     """
     ends = np.empty(len(strikes), ball.dtype)
     for i in range(len(strikes)):
@@ -119,7 +149,7 @@ def play_all(model, ball, strikes, gusts, log):
         while one[0]['playing']:
             log.count[0] = 0
             until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
-            if advance(model, one, until, log) == DONE and gust < len(gusts):
+            if advance(model, one, until, crowd, log) == DONE and gust < len(gusts):
                 blow(model.effects, vector(gusts[gust, 1:4]))
                 end_now(one[0], until)
                 gust += 1

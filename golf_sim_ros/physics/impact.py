@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Landing and bouncing: what an impact with the ground does, and what comes after it."""
-from . import at_once
+from . import together
 from ._compile import kernel, shared
+from .bump import WORTH_TELLING, collide, scatter
 from .caught import STALL, hold, is_caught, presses
 from .contact import material_number, material_of, settle, stand_on
+from .crowd import MEMBERS
 from .effects import felt_normal, pull
 from .ground import surface
 from .impulse import Bond, impulse, take
@@ -13,7 +15,6 @@ from .shot import note_landing
 from .state import BOUNCE, FLIGHT, SLIDE
 from .vector import ZERO, along, dot, length, put, scale, sub, vector
 
-WORTH_TELLING = 0.1  # m/s of approach: slower contacts are not collisions
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
 SLOW = 3.0  # m/s: slower than this the air hardly matters
@@ -21,8 +22,12 @@ LEAST_SETTLE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
 @shared
-def meet(land, ball, number, now, log):
-    """Let the ball collide with its target. Writes motion, phase and contact; logs the impact."""
+def meet(land, balls, i, now, crowd, log):
+    """Let ball `i` collide with its target. Writes motion, phase and contact; logs the impact.
+
+    Other balls that touch it are hit too and become members of the crowd.
+    """
+    ball = balls[i]
     place = vector(ball['position'])
     distance, normal = surface.nearest(land.ground, ball['target'], place)
     if distance < land.ball.radius:
@@ -40,35 +45,37 @@ def meet(land, ball, number, now, log):
     if approach > WORTH_TELLING:
         note_landing(ball, now)
         ball['bounces'] += 1
-    rebound, bounciness = bounce(land, ball, number, now, normal, log)
+    before = vector(ball['velocity']), vector(ball['spin'])
+    together.ground_contact(land, ball, i, ball['target'], normal, crowd)
+    together.gather(land, balls, crowd, now)
+    if crowd.count[MEMBERS] > 1 or together.approaching(balls, crowd) > 1:
+        collide(land, balls, now, crowd, log)
+        scatter(land, balls, now, crowd, 1)
+    else:
+        bounce(land, ball, normal)
+    rebound = max(dot(vector(ball['velocity']), normal), 0.0)
+    if approach > WORTH_TELLING:
+        tell(land, ball, i, now, normal, before, log)
     ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
-    after_impact(land, ball, now, (supported, approach, rebound, bounciness), normal)
+    material = material_of(land, ball, ball['target'], normal)
+    after_impact(land, ball, now, (supported, approach, rebound, restitution(material, rebound)), normal)
     if is_caught(ball):
         hold(land, ball, now)
 
 
 @kernel
-def bounce(land, ball, number, now, normal, log):
-    """Apply the impact's impulse; return the rebound speed off `normal` and the restitution."""
+def bounce(land, ball, normal):
+    """Apply the impulse of an impact with what has `normal`. Writes velocity and spin."""
     material = material_of(land, ball, ball['target'], normal)
     before = vector(ball['velocity'])
-    spun = vector(ball['spin'])
-    contacts = at_once.touched(land.ground, ball, land.ball.radius, normal)
-    if contacts.count > 1:
-        at_once.reflect(land, ball, contacts)
-    else:
-        felt = felt_normal(land.effects, normal, before, material['softness'])
-        e = restitution(material, -dot(before, felt))
-        bond = Bond(e, material['tangential_restitution'], material['dynamic_friction'],
-                    land.ball.mass, land.ball.inertia)
-        take(ball, impulse(bond, before, spun, felt, land.ball.radius), felt, land.ball)
+    felt = felt_normal(land.effects, normal, before, material['softness'])
+    e = restitution(material, -dot(before, felt))
+    bond = Bond(e, material['tangential_restitution'], material['dynamic_friction'],
+                land.ball.mass, land.ball.inertia)
+    take(ball, impulse(bond, before, vector(ball['spin']), felt, land.ball.radius), felt, land.ball)
     rebound = dot(vector(ball['velocity']), normal)
     if rebound < 0.0:  # a tilted normal may send it into the ground: the true surface holds it
         put(ball['velocity'], along(vector(ball['velocity']), -rebound, normal))
-        rebound = 0.0
-    if -dot(before, normal) > WORTH_TELLING:
-        tell(land, ball, number, now, normal, (before, spun), log)
-    return rebound, restitution(material, rebound)
 
 
 @kernel

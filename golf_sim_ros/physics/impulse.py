@@ -31,18 +31,23 @@ def slip(velocity, spin, normal, radius):
 
 
 @kernel
+def friction(bond, strength, sliding):
+    """Tangential impulse [N s] against `sliding` where the normal impulse has that `strength`."""
+    grip = (1.0 + bond.tangential) * bond.mass * bond.inertia / (1.0 + bond.inertia)
+    needed = grip * length(sliding)
+    if needed > bond.friction * strength:
+        grip *= bond.friction * strength / needed
+    return scale(-grip, sliding)
+
+
+@kernel
 def impulse(bond, velocity, spin, normal, radius):
     """Impulse [N s] on a ball that meets what has `normal` at `velocity` relative to it.
 
     For two balls `spin` is the sum of both spins: each turns its own surface.
     """
     strength = max(-(1.0 + bond.restitution) * bond.mass * dot(velocity, normal), 0.0)
-    sliding = slip(velocity, spin, normal, radius)
-    grip = (1.0 + bond.tangential) * bond.mass * bond.inertia / (1.0 + bond.inertia)
-    needed = grip * length(sliding)
-    if needed > bond.friction * strength:
-        grip *= bond.friction * strength / needed
-    return along(scale(strength, normal), -grip, sliding)
+    return along(friction(bond, strength, slip(velocity, spin, normal, radius)), strength, normal)
 
 
 @kernel

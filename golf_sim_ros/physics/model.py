@@ -68,11 +68,20 @@ def build(course, records, preset):
 
     Types are cast here, once: a kernel would compile anew for an int in place of a float.
     """
-    speaks = laws.gravity.cases.keys() | laws.contact_normal.cases.keys()
-    on_land = tuple(r for r in records if type(r) in speaks)
-    return Model(Land(Ball(*map(float, course.ball)), on_land or (Nothing(),), ground(course),
-                      table(materials(course)), preset.limits),
-                 tuple(records) or (Nothing(),), preset.method)
+    on_land = speaking(records, laws.gravity, laws.contact_normal)
+    return Model(Land(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
+                      preset.limits),
+                 in_flight(records), preset.method)
+
+
+def in_flight(records):
+    """Those of the effects' `records` that act on a flying ball."""
+    return speaking(records, laws.gravity, laws.air_velocity, laws.acceleration, laws.spin_rate)
+
+
+def speaking(records, *some):
+    """Those of the `records` that have a word in one of `some` laws; `Nothing` where none has."""
+    return tuple(r for r in records if any(type(r) in law.cases for law in some)) or (Nothing(),)
 
 
 def ground(course):

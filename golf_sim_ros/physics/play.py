@@ -137,7 +137,7 @@ def _played(course, strikes, gusts, effects, accuracy):
     # The strongest gust decides whether there is wind at all.
     strongest = gusts[np.argmax(np.linalg.norm(gusts[:, 1:], axis=1)), 1:]
     world = World(course, effects=effects, accuracy=accuracy, wind=strongest)
-    ends = play_all(world._model, world._balls, strikes, gusts, world._log)
+    ends = play_all(world._model, world._balls, strikes, gusts, world._crowd, world._log)
     return summary(ends, course.hole, world._materials)
 
 

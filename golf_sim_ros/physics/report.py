@@ -78,11 +78,11 @@ def three(row):
     return tuple(row.tolist())
 
 
-def collision(event, time, ball, material):
-    """`Collision` of a logged impact."""
+def collision(event, time, ball, kind, other):
+    """`Collision` of a logged impact with `other`, a material or ball."""
     names = ('position', 'normal', 'velocity_before', 'velocity_after', 'spin_before', 'spin_after',
              'impulse')
-    return Collision(time, ball, 'bounce', material, *(three(event[name]) for name in names))
+    return Collision(time, ball, kind, other, *(three(event[name]) for name in names))
 
 
 def summary(balls, hole, lies):

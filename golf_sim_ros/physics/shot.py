@@ -2,7 +2,7 @@
 """What is kept of a shot on its way, for its result."""
 from . import path
 from ._compile import entry, kernel
-from .state import FLIGHT, LAUNCH, REST, SHOT_ENDS, moves
+from .state import FLIGHT, LAUNCH, REST, moves
 from .vector import ZERO, put, vector
 
 
@@ -40,8 +40,8 @@ def note_landing(ball, now):
 
 
 @kernel
-def end_shot(ball, number, now, log):
-    """Log the end of the ball's shot. Writes playing, ended."""
+def end_shot(ball, number, now, kind, log):
+    """Log the end of the ball's shot, or that it is lost: `kind`. Writes playing, ended."""
     ball['ended'] = now
     if moves(ball['phase']):
         ball['over_time'] = 1
@@ -53,7 +53,7 @@ def end_shot(ball, number, now, log):
     log.count[0] += 1
     event['time'] = now
     event['ball'] = number
-    event['kind'] = SHOT_ENDS
+    event['kind'] = kind
 
 
 @entry

@@ -35,8 +35,8 @@ class Shot(NamedTuple):
     spin: tuple = (0.0, 0.0, 0.0)
 
 
-# What ends a piece of path. LAUNCH: the ball was put or struck, and its own state counts.
-STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH = range(7)
+# What ends a piece of path. LAUNCH: the ball was put or struck, and its own state counts. MEETING: of balls.
+STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, MEETING = range(8)
 
 NO_PART = -1
 
@@ -47,7 +47,7 @@ BALL = np.dtype([
     # bounces, too small to follow one by one, go on, and how hard they press meanwhile, over m g
     ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
-    # and of the spin; what ends it and on which part of the ground
+    # and of the spin; what ends it and on which part of the ground, or at which other ball
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
     ('path', 'f8', (6, 3)), ('twist', 'f8', (4, 3)), ('ending', 'i8'), ('target', 'i8'),
     # the integrator's next step and its stages: rates of position, velocity, spin
@@ -80,8 +80,9 @@ def restored(values):
 
 
 # What happened, for the world to report.
-BOUNCE, SHOT_ENDS = range(2)
+BOUNCE, SHOT_ENDS, BUMP, LOST = range(4)
 
+# Of a BUMP `material` is the number of the other ball.
 EVENT = np.dtype([
     ('time', 'f8'), ('ball', 'i8'), ('kind', 'i8'), ('material', 'i8'),
     ('position', 'f8', 3), ('normal', 'f8', 3),

@@ -10,11 +10,12 @@ from . import model as model_
 from ._compile import stamp
 from .accuracy import preset
 from .advance import LOG_FULL, advance
+from .crowd import crowd
 from .ground import surface
 from .piece import LONGEST_SHOT, put_down
 from .report import collision, objection, result, three
 from .shot import tee_off
-from .state import (BALL, BOUNCE, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, REST, ROLL, SLIDE, STEP, Phase,
+from .state import (BALL, BOUNCE, BUMP, FLIGHT, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL, SLIDE, STEP, Phase,
                     new_log, plain, restored)
 from .vector import ZERO
 
@@ -70,6 +71,7 @@ class World:
         self._log, self._events, self._now, self._shots = new_log(), [], 0.0, 0
         self._balls = np.zeros(len(self.names), BALL)
         self._rebuild()
+        self._crowd = crowd(len(self.names), 'ball_ball' in self.effects_on)
         self._tee_up()
 
     def _rebuild(self):
@@ -235,7 +237,7 @@ class World:
             return
         self._wind = wind
         self._chosen = model_.choose(self._asked, self.course, len(self.names), wind)
-        self._model = self._model._replace(effects=self._chosen.records or self._model.effects)
+        self._model = self._model._replace(effects=model_.in_flight(self._chosen.records))
         self._begin_new_pieces()
 
     def _begin_new_pieces(self):
@@ -262,7 +264,7 @@ class World:
         """Run the engine up to `until` on the paths' clock, and keep what it tells."""
         start = self.time - self._now
         while True:
-            status = advance(self._model, self._balls, until, self._log)
+            status = advance(self._model, self._balls, until, self._crowd, self._log)
             self._events += self._told(start)
             if status != LOG_FULL:
                 break
@@ -274,7 +276,11 @@ class World:
             ball, name = self._balls[event['ball']], self.names[event['ball']]
             time = start + float(event['time'])
             if event['kind'] == BOUNCE:
-                events.append(collision(event, time, name, self._materials[event['material']]))
+                events.append(collision(event, time, name, 'bounce', self._materials[event['material']]))
+            elif event['kind'] == BUMP:
+                events.append(collision(event, time, name, 'ball', self.names[event['material']]))
+            elif event['kind'] == LOST:
+                self._drop(ball)
             else:
                 events.append(result(ball, name, time, self.course.hole, self._materials))
                 if ball['phase'] == OUT:

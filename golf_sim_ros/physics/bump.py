@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Balls that hit balls."""
+from . import together
+from ._compile import kernel, shared
+from .contact import settle
+from .crowd import CONTACTS, MEMBERS
+from .motion import STILL
+from .pair import gap_between
+from .state import BUMP, FLIGHT, REST, SLIDE, moves
+from .vector import dot, length, put, scale, sub, vector
+
+WORTH_TELLING = 0.1  # m/s of approach: slower contacts are not collisions
+
+
+@shared
+def bump(land, balls, i, now, crowd, log):
+    """Let ball `i` collide with the ball that it meets, and all that touch. Writes motion; logs impacts."""
+    j = balls[i]['target']
+    together.enlist(crowd, j)
+    together.bring(balls[j], now)
+    gap, rate, _ = gap_between(balls[i], balls[j], land.ball.radius, now)
+    if gap > together.TOGETHER or rate > 0.0:
+        return  # the other one has got another path meanwhile
+    together.gather(land, balls, crowd, now)
+    collide(land, balls, now, crowd, log)
+    scatter(land, balls, now, crowd, 0)
+
+
+@shared
+def collide(land, balls, now, crowd, log):
+    """Let the members collide at all contacts. Writes motion; logs impacts of balls."""
+    for k in range(crowd.count[MEMBERS]):
+        keep_launch(balls[crowd.members[k]])
+    remember(balls, crowd)
+    together.reflect(land, balls, crowd)
+    for n in range(crowd.count[CONTACTS]):
+        row = crowd.contacts[n]
+        if row['b'] >= 0 and row['approach'] > WORTH_TELLING and log.count[0] < len(log.events):
+            tell(balls, now, row, crowd, log)
+
+
+@kernel
+def keep_launch(ball):
+    """Keep where a ball that nobody struck lay: there it goes back to where it is lost."""
+    if not ball['playing'] and ball['phase'] == REST:
+        put(ball['struck_at'], vector(ball['position']))
+
+
+@kernel
+def remember(balls, crowd):
+    """Keep the members' motion before the impact, for telling. Writes before."""
+    for k in range(crowd.count[MEMBERS]):
+        i = crowd.members[k]
+        put(crowd.before[i, 0:3], vector(balls[i]['velocity']))
+        put(crowd.before[i, 3:6], vector(balls[i]['spin']))
+
+
+@kernel
+def tell(balls, now, row, crowd, log):
+    """Log an impact of two balls."""
+    ball = balls[row['a']]
+    event = log.events[log.count[0]]
+    log.count[0] += 1
+    event['time'] = now
+    event['ball'] = row['a']
+    event['kind'] = BUMP
+    event['material'] = row['b']
+    put(event['position'], vector(ball['position']))
+    put(event['normal'], vector(row['normal']))
+    put(event['velocity_before'], vector(crowd.before[row['a'], 0:3]))
+    put(event['velocity_after'], vector(ball['velocity']))
+    put(event['spin_before'], vector(crowd.before[row['a'], 3:6]))
+    put(event['spin_after'], vector(ball['spin']))
+    put(event['impulse'], vector(row['impulse']))
+
+
+@kernel
+def scatter(land, balls, now, crowd, first):
+    """Let the members from number `first` on go on as they now move. Writes phases and contacts."""
+    for k in range(first, crowd.count[MEMBERS]):
+        ball = balls[crowd.members[k]]
+        if not moves(ball['phase']) and length(vector(ball['velocity'])) + length(vector(ball['spin'])) == 0.0:
+            continue
+        if not moves(ball['phase']):
+            ball['tail_end'] = now
+            ball['stalled'] = 0
+        lift = dot(vector(ball['velocity']), vector(ball['normal']))
+        if ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= STILL:
+            ball['phase'] = SLIDE
+            settle(land, ball, now)
+        else:
+            ball['phase'] = FLIGHT
+        ball['step'] = 0.0

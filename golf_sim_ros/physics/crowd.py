@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Several balls: which of them are near each other, and when the first of their pieces ends.
+
+Every ball's piece of path has a box. The boxes are the leaves of a binary tree, laid out depth first, so
+that looking for all that meet a box needs no stack: a node whose box is missed is skipped with all below
+it::
+
+        0                nodes  0 1 2 3 4     node 1 has the leaves 2 and 3;
+       / \\               skip   5 4 3 4 5     missing 1, go on at 4
+      1   4
+     / \\
+    2   3
+
+A ball that gets a new piece widens or narrows the boxes above its leaf; now and then the tree is built anew.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from ._compile import kernel, shared
+from .detect import box
+from .state import moves
+from .vector import along, put, vector
+
+NODE = np.dtype([('low', 'f8', 3), ('high', 'f8', 3), ('skip', 'i8'), ('parent', 'i8'), ('ball', 'i8'),
+                 ('first', 'i8'), ('count', 'i8')], align=True)
+
+CONTACT = np.dtype([
+    ('a', 'i8'), ('b', 'i8'), ('part', 'i8'), ('normal', 'f8', 3), ('restitution', 'f8'),
+    ('tangential', 'f8'), ('friction', 'f8'), ('mass', 'f8'), ('active', 'i8'), ('rate', 'f8'),
+    ('push', 'f8'), ('before', 'f8'), ('ahead', 'f8'), ('shared', 'f8'), ('rub', 'f8', 3),
+    ('impulse', 'f8', 3), ('approach', 'f8')], align=True)
+
+CONTACTS_A_BALL = 8
+MEMBERS, CONTACTS, AGE = range(3)
+
+
+class Crowd(NamedTuple):
+    """Scratch of the engine.
+
+    ``ends``: when each ball's piece ends; ``nodes`` and ``leaves``: the tree, empty where balls pass each
+    other; ``order``: scratch of its making; ``members`` and ``contacts``: of the impact at hand;
+    ``places``: index among the members of each ball, or -1; ``flow``: change of each member's velocity; ``before``: its motion
+    before the impact;
+    ``count``: of members, of contacts, and of new pieces since the tree was built.
+    """
+
+    ends: np.ndarray
+    nodes: np.ndarray
+    leaves: np.ndarray
+    order: np.ndarray
+    members: np.ndarray
+    places: np.ndarray
+    flow: np.ndarray
+    before: np.ndarray
+    contacts: np.ndarray
+    count: np.ndarray
+
+
+def crowd(balls, collide):
+    """`Crowd` of that many balls; they touch each other if they `collide`."""
+    several = balls if collide and balls > 1 else 0
+    return Crowd(np.full(balls, np.inf), np.zeros(max(2 * several - 1, 0), NODE), np.zeros(several, np.int64),
+                 np.arange(several), np.zeros(balls, np.int64), np.full(balls, -1, np.int64),
+                 np.zeros((balls, 3)), np.zeros((balls, 6)), np.zeros(CONTACTS_A_BALL * balls + 8, CONTACT),
+                 np.array([0, 0, several]))
+
+
+@kernel
+def collide(crowd):
+    """Whether balls touch each other."""
+    return len(crowd.nodes) > 0
+
+
+@kernel
+def write_box(ball, node, radius):
+    """Write the box of the ball's piece into its leaf."""
+    if moves(ball['phase']):
+        low, high = box(ball, 0.0, ball['span'], radius)
+    else:
+        half = (radius, radius, radius)
+        low, high = along(vector(ball['position']), -1.0, half), along(vector(ball['position']), 1.0, half)
+    put(node['low'], low)
+    put(node['high'], high)
+
+
+@kernel
+def unite(crowd, i):
+    """Write the box of node `i` from those below it."""
+    node = crowd.nodes[i]
+    one = crowd.nodes[i + 1]
+    other = crowd.nodes[one['skip']]
+    for k in range(3):
+        node['low'][k] = min(one['low'][k], other['low'][k])
+        node['high'][k] = max(one['high'][k], other['high'][k])
+
+
+@shared
+def plant(crowd, balls, radius):
+    """Build the tree anew. Writes nodes, leaves, order, count."""
+    crowd.count[AGE] = 0
+    crowd.nodes[0]['first'] = 0
+    crowd.nodes[0]['count'] = len(balls)
+    crowd.nodes[0]['parent'] = -1
+    for i in range(len(crowd.nodes)):
+        node = crowd.nodes[i]
+        n = node['count']
+        node['skip'] = i + 2 * n - 1
+        node['ball'] = -1
+        if n == 1:
+            number = crowd.order[node['first']]
+            node['ball'] = number
+            crowd.leaves[number] = i
+            write_box(balls[number], node, radius)
+            continue
+        half = n // 2
+        halve(crowd.order, balls, node['first'], node['first'] + n, node['first'] + half)
+        below(crowd.nodes[i + 1], i, node['first'], half)
+        below(crowd.nodes[i + 2 * half], i, node['first'] + half, n - half)
+    for back in range(1, len(crowd.nodes) + 1):
+        i = len(crowd.nodes) - back
+        if crowd.nodes[i]['ball'] < 0:
+            unite(crowd, i)
+
+
+@kernel
+def below(node, parent, first, count):
+    """Give a node its parent and its balls."""
+    node['parent'] = parent
+    node['first'] = first
+    node['count'] = count
+
+
+@kernel
+def halve(order, balls, first, last, middle):
+    """Reorder balls `first` to `last` so that those up to `middle` lie below the others on the longest axis."""
+    axis = 0
+    widest = -1.0
+    for k in range(3):
+        low = 1e300
+        high = -1e300
+        for i in range(first, last):
+            low = min(low, balls[order[i]]['position'][k])
+            high = max(high, balls[order[i]]['position'][k])
+        if high - low > widest:
+            widest = high - low
+            axis = k
+    last -= 1
+    while first < last:  # Hoare's selection
+        pivot = balls[order[(first + last) // 2]]['position'][axis]
+        i = first
+        j = last
+        while i <= j:
+            while balls[order[i]]['position'][axis] < pivot:
+                i += 1
+            while balls[order[j]]['position'][axis] > pivot:
+                j -= 1
+            if i <= j:
+                order[i], order[j] = order[j], order[i]
+                i += 1
+                j -= 1
+        if middle <= j:
+            last = j
+        elif middle >= i:
+            first = i
+        else:
+            break
+
+
+@shared
+def renew(crowd, balls, i, radius):
+    """Tell ball `i`'s new piece. Writes ends and the tree."""
+    crowd.ends[i] = balls[i]['end']
+    if not collide(crowd):
+        return
+    crowd.count[AGE] += 1
+    if crowd.count[AGE] > len(balls):
+        plant(crowd, balls, radius)
+        return
+    leaf = crowd.leaves[i]
+    write_box(balls[i], crowd.nodes[leaf], radius)
+    at = crowd.nodes[leaf]['parent']
+    while at >= 0:
+        unite(crowd, at)
+        at = crowd.nodes[at]['parent']
+
+
+@kernel
+def next_node(crowd, at, low, high):
+    """First leaf from node `at` on that meets the box from `low` to `high`, or -1."""
+    while at < len(crowd.nodes):
+        node = crowd.nodes[at]
+        if (node['low'][0] > high[0] or node['high'][0] < low[0] or node['low'][1] > high[1]
+                or node['high'][1] < low[1] or node['low'][2] > high[2] or node['high'][2] < low[2]):
+            at = node['skip']
+        elif node['ball'] >= 0:
+            return at
+        else:
+            at += 1
+    return -1
+
+
+@kernel
+def first_due(crowd, until):
+    """Ball whose piece ends first, at `until` at the latest, or -1."""
+    who = -1
+    first = until
+    for i in range(len(crowd.ends)):
+        if crowd.ends[i] < first or who < 0 and crowd.ends[i] == first:
+            first = crowd.ends[i]
+            who = i
+    return who

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Balls that hit each other; without it they pass through each other."""
+from typing import NamedTuple
+
+
+class BallBall(NamedTuple):
+    """Collisions of ball with ball: the engine looks for them where this is on, and not otherwise."""
+
+
+def record(scene):
+    """Record for `scene`."""
+    return BallBall()
+
+
+def idle(scene):
+    """Why `scene` can do without: where there is one ball."""
+    return '' if scene.balls > 1 else 'one ball'

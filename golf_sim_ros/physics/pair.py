@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""When two balls touch: the gap between them is convex in their relative position, as with ground."""
+from . import path
+from ._compile import kernel, shared
+from .crowd import next_node
+from .detect import MOST_STEPS, TANGENTIAL, TOUCH, box, safe_advance
+from .state import HOLED, moves
+from .vector import ZERO, dot, length, sub, unit, vector
+
+UP = (0.0, 0.0, 1.0)
+
+
+@kernel
+def place_at(ball, now):
+    """Where the ball is at `now`, on its present piece."""
+    return path.position(ball, now - ball['begin']) if moves(ball['phase']) else vector(ball['position'])
+
+
+@kernel
+def velocity_at(ball, now):
+    """Velocity of the ball at `now`, on its present piece."""
+    return path.velocity(ball, now - ball['begin']) if moves(ball['phase']) else ZERO
+
+
+@kernel
+def gap_between(a, b, radius, now):
+    """Gap between two balls at `now`, its rate, and the direction from `b` to `a`."""
+    apart = sub(place_at(a, now), place_at(b, now))
+    normal = unit(apart, UP)
+    rate = dot(normal, sub(velocity_at(a, now), velocity_at(b, now)))
+    return length(apart) - 2.0 * radius, rate, normal
+
+
+@kernel
+def bend_of(ball):
+    """Bound on the acceleration of a ball on its piece."""
+    return path.greatest_acceleration(ball) if moves(ball['phase']) else 0.0
+
+
+@kernel
+def part_from(a, b, radius, now, until):
+    """Time at which two balls that touch without approach are clear of each other, or `now` if they press."""
+    wait = 1e-9
+    while now + wait < until and wait < 1e-2:
+        gap, rate, _ = gap_between(a, b, radius, now + wait)
+        if gap < -TOUCH:
+            return now
+        if gap > 10 * TOUCH and rate > 0.0:
+            return now + wait
+        wait *= 4.0
+    return min(now + wait, until)
+
+
+@kernel
+def first_touch_of(a, b, radius, begin, until):
+    """Time from `begin` to `until` up to which two balls do not touch; whether they do then."""
+    bend = bend_of(a) + bend_of(b)
+    now = begin
+    for _ in range(MOST_STEPS):
+        gap, rate, _ = gap_between(a, b, radius, now)
+        if gap <= TOUCH:
+            if rate < -TANGENTIAL or now > begin and rate <= 0.0:
+                return now, True
+            if rate <= TANGENTIAL:
+                now = part_from(a, b, radius, now, until)
+                if now == begin:
+                    return now, True
+                if now >= until:
+                    return until, False
+                continue
+        now += safe_advance(gap, rate, bend)
+        if now >= until:
+            return until, False
+    return now, False
+
+
+@shared
+def first_meeting(crowd, balls, i, radius, now, until):
+    """First time up to `until` at which ball `i` touches another, which, and whether it really does."""
+    ball = balls[i]
+    low, high = box(ball, 0.0, until - now, radius)
+    best = until
+    who = -1
+    hit = False
+    at = next_node(crowd, 0, low, high)
+    while at >= 0:
+        j = crowd.nodes[at]['ball']
+        if j != i and balls[j]['phase'] != HOLED:
+            last = min(best, balls[j]['end'])
+            if last >= now:
+                time, touches = first_touch_of(ball, balls[j], radius, now, last)
+                if touches and (time < best or not hit) or time < last:
+                    best = time
+                    who = j
+                    hit = touches
+        at = next_node(crowd, at + 1, low, high)
+    return best, who, hit
