@@ -7,17 +7,17 @@ read at the time asked for. Nothing ever steps to a tick, so paths do not depend
 """
 import numpy as np
 
+from . import bump, pair, pile  # noqa: F401  (they say what balls do to each other)
+from . import others
 from ._compile import borrowed, entry, kernel
-from .bump import bump
 from .caught import hold, is_caught
 from .contact import settle
-from .crowd import AGE, MEMBERS, collide, first_due, plant, renew
+from .crowd import MEMBERS, first_due
 from .effects import blow
 from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
 from .shot import end_shot, keep_highest, tee_off
-from .pair import first_meeting
 from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, LOST, MEETING, OUT, SHOT_ENDS, SLIP_STOPS, STEP,
                     TIME_LIMIT, moves)
 from .together import disperse, enlist
@@ -39,8 +39,7 @@ def advance(model, balls, until, crowd, log):
     log = borrowed(log)
     for i in range(len(balls)):
         crowd.ends[i] = balls[i]['end']
-    if collide(crowd) and crowd.count[AGE] >= len(balls):
-        plant(crowd, balls, model.land.ball.radius)
+    others.prepare(crowd, balls, model.land.ball.radius)
     while True:
         i = first_due(crowd, until)
         if i < 0:
@@ -73,12 +72,16 @@ def resolve(model, balls, i, crowd, log):
         read(ball, now)
     if ending == LAUNCH:
         launch(model, ball, now)
+        others.rouse(crowd, balls, model.land.ball.radius, now)
     elif ending == HIT:
         meet(model.land, balls, i, now, crowd, log)
     elif ending == MEETING:
-        bump(model.land, balls, i, now, crowd, log)
+        others.bump(crowd, model.land, balls, i, now, log)
+        others.rouse(crowd, balls, model.land.ball.radius, now)
     elif ending == BORDER:
         cross_border(model.land, ball, now)
+    elif others.lean(crowd, model.land, balls, i, now):
+        pass
     elif is_caught(ball):
         hold(model.land, ball, now)
     elif ball['phase'] != FLIGHT:
@@ -96,7 +99,7 @@ def finish(model, ball, number, now, log):
     """End the shot of a ball that has stopped, is lost, or has been on its way for too long."""
     if moves(ball['phase']) and is_out(model, ball):
         ball['phase'] = OUT
-        if not ball['playing']:
+        if ball['knocked'] and not ball['playing']:
             end_shot(ball, number, now, LOST, log)
     if ball['playing'] and (not moves(ball['phase']) or ball['ending'] == TIME_LIMIT):
         end_shot(ball, number, now, SHOT_ENDS, log)
@@ -107,13 +110,15 @@ def lay(model, balls, i, now, crowd):
     """Lay ball `i`'s next piece, up to where it meets another ball. Writes piece and crowd."""
     ball = balls[i]
     lay_next(model, ball, now)
-    if collide(crowd) and moves(ball['phase']):
-        time, other, hit = first_meeting(crowd, balls, i, model.land.ball.radius, now, ball['end'])
+    radius = model.land.ball.radius
+    if moves(ball['phase']):
+        time, other, hit = others.meeting(crowd, balls, i, radius, now)
         if time < ball['end'] or hit:
             ball['end'] = time
             ball['ending'] = MEETING if hit else STEP
             ball['target'] = other
-    renew(crowd, balls, i, model.land.ball.radius)
+    crowd.ends[i] = ball['end']
+    others.note(crowd, balls, i, radius)
 
 
 @kernel

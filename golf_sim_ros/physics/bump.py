@@ -1,29 +1,44 @@
 # SPDX-License-Identifier: Apache-2.0
 """Balls that hit balls."""
-from . import together
+from . import others, together
 from ._compile import kernel, shared
 from .contact import settle
-from .crowd import CONTACTS, MEMBERS
+from .crowd import CONTACTS, MEMBERS, Crowd
 from .motion import STILL
 from .pair import gap_between
+from .pile import pile_up
 from .state import BUMP, FLIGHT, REST, SLIDE, moves
-from .vector import dot, length, put, scale, sub, vector
+from .vector import dot, length, put, vector
 
+STALL = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
+MANY_MEETINGS = 8
+GENTLE = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
 WORTH_TELLING = 0.1  # m/s of approach: slower contacts are not collisions
 
 
+@others.bump.register(Crowd)
+def _bump(crowd, land, balls, i, now, log):
+    meet_ball(land, balls, i, now, crowd, log)
+
+
 @shared
-def bump(land, balls, i, now, crowd, log):
+def meet_ball(land, balls, i, now, crowd, log):
     """Let ball `i` collide with the ball that it meets, and all that touch. Writes motion; logs impacts."""
     j = balls[i]['target']
     together.enlist(crowd, j)
     together.bring(balls[j], now)
     gap, rate, _ = gap_between(balls[i], balls[j], land.ball.radius, now)
-    if gap > together.TOGETHER or rate > 0.0:
+    if gap > together.TOGETHER:
         return  # the other one has got another path meanwhile
+    stalls = now - balls[i]['begin'] < STALL
     together.gather(land, balls, crowd, now)
     collide(land, balls, now, crowd, log)
     scatter(land, balls, now, crowd, 0)
+    leans = rate > -GENTLE and (balls[i]['piled'] or balls[j]['piled'])
+    for ball in (balls[i], balls[j]):
+        ball['stalled'] = ball['stalled'] + 1 if stalls else 0
+        if (leans or ball['stalled'] > MANY_MEETINGS) and moves(ball['phase']) and not ball['piled']:
+            pile_up(ball)
 
 
 @shared
@@ -33,6 +48,11 @@ def collide(land, balls, now, crowd, log):
         keep_launch(balls[crowd.members[k]])
     remember(balls, crowd)
     together.reflect(land, balls, crowd)
+    others.tell_bumps(crowd, balls, now, log)
+
+
+@others.tell_bumps.register(Crowd)
+def _tell_bumps(crowd, balls, now, log):
     for n in range(crowd.count[CONTACTS]):
         row = crowd.contacts[n]
         if row['b'] >= 0 and row['approach'] > WORTH_TELLING and log.count[0] < len(log.events):
@@ -43,6 +63,7 @@ def collide(land, balls, now, crowd, log):
 def keep_launch(ball):
     """Keep where a ball that nobody struck lay: there it goes back to where it is lost."""
     if not ball['playing'] and ball['phase'] == REST:
+        ball['knocked'] = 1
         put(ball['struck_at'], vector(ball['position']))
 
 
@@ -79,13 +100,14 @@ def scatter(land, balls, now, crowd, first):
     """Let the members from number `first` on go on as they now move. Writes phases and contacts."""
     for k in range(first, crowd.count[MEMBERS]):
         ball = balls[crowd.members[k]]
-        if not moves(ball['phase']) and length(vector(ball['velocity'])) + length(vector(ball['spin'])) == 0.0:
-            continue
         if not moves(ball['phase']):
+            if length(vector(ball['velocity'])) + length(vector(ball['spin'])) == 0.0:
+                continue
             ball['tail_end'] = now
-            ball['stalled'] = 0
         lift = dot(vector(ball['velocity']), vector(ball['normal']))
-        if ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= STILL:
+        if ball['piled']:
+            ball['phase'] = FLIGHT
+        elif ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= STILL:
             ball['phase'] = SLIDE
             settle(land, ball, now)
         else:

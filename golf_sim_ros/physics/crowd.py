@@ -17,8 +17,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from . import others
 from ._compile import kernel, shared
 from .detect import box
+from .others import Solo
 from .state import moves
 from .vector import along, put, vector
 
@@ -36,40 +38,37 @@ MEMBERS, CONTACTS, AGE = range(3)
 
 
 class Crowd(NamedTuple):
-    """Scratch of the engine.
+    """Scratch of an engine whose balls touch each other: that of `Solo`, and the tree.
 
-    ``ends``: when each ball's piece ends; ``nodes`` and ``leaves``: the tree, empty where balls pass each
-    other; ``order``: scratch of its making; ``members`` and ``contacts``: of the impact at hand;
-    ``places``: index among the members of each ball, or -1; ``flow``: change of each member's velocity; ``before``: its motion
-    before the impact;
-    ``count``: of members, of contacts, and of new pieces since the tree was built.
+    ``nodes``: depth first; ``leaves``: each ball's node; ``order``: scratch of its making.
     """
 
     ends: np.ndarray
-    nodes: np.ndarray
-    leaves: np.ndarray
-    order: np.ndarray
     members: np.ndarray
     places: np.ndarray
     flow: np.ndarray
     before: np.ndarray
     contacts: np.ndarray
     count: np.ndarray
+    nodes: np.ndarray
+    leaves: np.ndarray
+    order: np.ndarray
 
 
-def crowd(balls, collide):
-    """`Crowd` of that many balls; they touch each other if they `collide`."""
-    several = balls if collide and balls > 1 else 0
-    return Crowd(np.full(balls, np.inf), np.zeros(max(2 * several - 1, 0), NODE), np.zeros(several, np.int64),
-                 np.arange(several), np.zeros(balls, np.int64), np.full(balls, -1, np.int64),
-                 np.zeros((balls, 3)), np.zeros((balls, 6)), np.zeros(CONTACTS_A_BALL * balls + 8, CONTACT),
-                 np.array([0, 0, several]))
+def scratch(balls, collide):
+    """`Crowd` of that many balls, which `collide`, or `Solo`."""
+    solo = Solo(np.full(balls, np.inf), np.zeros(balls, np.int64), np.full(balls, -1, np.int64),
+                np.zeros((balls, 3)), np.zeros((balls, 6)), np.zeros(CONTACTS_A_BALL * balls + 8, CONTACT),
+                np.array([0, 0, balls]))
+    if not collide:
+        return solo
+    return Crowd(*solo, np.zeros(2 * balls - 1, NODE), np.zeros(balls, np.int64), np.arange(balls))
 
 
-@kernel
-def collide(crowd):
-    """Whether balls touch each other."""
-    return len(crowd.nodes) > 0
+@others.prepare.register(Crowd)
+def _prepare(crowd, balls, radius):
+    if crowd.count[AGE] >= len(balls):
+        plant(crowd, balls, radius)
 
 
 @kernel
@@ -79,7 +78,8 @@ def write_box(ball, node, radius):
         low, high = box(ball, 0.0, ball['span'], radius)
     else:
         half = (radius, radius, radius)
-        low, high = along(vector(ball['position']), -1.0, half), along(vector(ball['position']), 1.0, half)
+        low = along(vector(ball['position']), -1.0, half)
+        high = along(vector(ball['position']), 1.0, half)
     put(node['low'], low)
     put(node['high'], high)
 
@@ -167,12 +167,14 @@ def halve(order, balls, first, last, middle):
             break
 
 
+@others.note.register(Crowd)
+def _note(crowd, balls, i, radius):
+    renew(crowd, balls, i, radius)
+
+
 @shared
 def renew(crowd, balls, i, radius):
-    """Tell ball `i`'s new piece. Writes ends and the tree."""
-    crowd.ends[i] = balls[i]['end']
-    if not collide(crowd):
-        return
+    """Tell ball `i`'s new piece. Writes the tree."""
     crowd.count[AGE] += 1
     if crowd.count[AGE] > len(balls):
         plant(crowd, balls, radius)

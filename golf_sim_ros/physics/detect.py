@@ -25,6 +25,7 @@ from .vector import add, along, dot, length, sub, vector
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
 NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
+PILE_NEAR = 5e-5  # m: the same in a pile
 SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 NEVER = 1e300
@@ -219,7 +220,7 @@ def is_passed(ground, part, ball, radius, foot, until, on):
 def holds(ground, part, ball, radius):
     """Whether `part` holds the caught ball as its piece begins, and so is no obstacle to it."""
     distance, _ = surface.nearest(ground, part, vector(ball['position']))
-    return distance - radius <= NEAR
+    return distance - radius <= (PILE_NEAR if ball['piled'] else NEAR)
 
 
 @kernel

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """When two balls touch: the gap between them is convex in their relative position, as with ground."""
-from . import path
+from . import others, path
 from ._compile import kernel, shared
-from .crowd import next_node
+from .crowd import Crowd, next_node
 from .detect import MOST_STEPS, TANGENTIAL, TOUCH, box, safe_advance
-from .state import HOLED, moves
+from .state import HOLED, REST, moves
 from .vector import ZERO, dot, length, sub, unit, vector
 
 UP = (0.0, 0.0, 1.0)
+HELD = 5e-5  # m: a sleeper that near is held by the pile
 
 
 @kernel
@@ -74,10 +75,25 @@ def first_touch_of(a, b, radius, begin, until):
     return now, False
 
 
+@kernel
+def is_held(ball, other, radius, now):
+    """Whether the contact of a piled ball with another one is left to the pile."""
+    if other['piled']:
+        return True
+    gap, _, _ = gap_between(ball, other, radius, now)
+    return other['phase'] == REST and gap < HELD
+
+
+@others.meeting.register(Crowd)
+def _meeting(crowd, balls, i, radius, now):
+    return first_meeting(crowd, balls, i, radius, now)
+
+
 @shared
-def first_meeting(crowd, balls, i, radius, now, until):
-    """First time up to `until` at which ball `i` touches another, which, and whether it really does."""
+def first_meeting(crowd, balls, i, radius, now):
+    """First time at which ball `i`'s piece touches another ball, which, and whether it really does."""
     ball = balls[i]
+    until = ball['end']
     low, high = box(ball, 0.0, until - now, radius)
     best = until
     who = -1
@@ -85,10 +101,12 @@ def first_meeting(crowd, balls, i, radius, now, until):
     at = next_node(crowd, 0, low, high)
     while at >= 0:
         j = crowd.nodes[at]['ball']
-        if j != i and balls[j]['phase'] != HOLED:
-            last = min(best, balls[j]['end'])
+        # What is in one pile, or asleep beside it, is held by its contacts.
+        other = balls[j]
+        if j != i and other['phase'] != HOLED and not (ball['piled'] and is_held(ball, other, radius, now)):
+            last = min(best, other['end'])
             if last >= now:
-                time, touches = first_touch_of(ball, balls[j], radius, now, last)
+                time, touches = first_touch_of(ball, other, radius, now, last)
                 if touches and (time < best or not hit) or time < last:
                     best = time
                     who = j

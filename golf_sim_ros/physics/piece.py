@@ -12,6 +12,7 @@ from .ground import surface
 from .impact import cross_border
 from .integrators import step
 from .motion import STILL
+from .pile import next_instant
 from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
 from .vector import ZERO, along, cross, dot, length, put, scale, vector
 
@@ -36,7 +37,10 @@ def lay_next(model, ball, now):
         on = IN_THE_AIR
         step(model, ball)
     until = ball['span']
-    if is_caught(ball):
+    if ball['piled']:
+        on = CAUGHT
+        until = min(until, next_instant(now) - now)
+    elif is_caught(ball):
         on = CAUGHT
         until = min(until, caught_step(ball))
     until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
@@ -50,6 +54,8 @@ def lay_next(model, ball, now):
     if until < ball['span'] and ball['ending'] != HIT and ball['ending'] != BORDER:
         ball['ending'] = STEP
     ball['end'] = now + until
+    if ball['piled'] and ball['ending'] == STEP and ball['end'] > next_instant(now) - 1e-9:
+        ball['end'] = next_instant(now)  # the same number for all
     if ball['playing'] and ball['end'] > ball['struck'] + LONGEST_SHOT:
         ball['end'] = ball['struck'] + LONGEST_SHOT
         ball['ending'] = TIME_LIMIT
@@ -89,6 +95,7 @@ def launch(model, ball, now):
     """Decide how a ball sets off from its state: in the air, or along the ground under it."""
     ball['step'] = 0.0
     ball['stalled'] = 0
+    ball['piled'] = 0
     ball['tail_end'] = now
     ball['phase'] = FLIGHT
     lift = dot(vector(ball['velocity']), vector(ball['normal']))

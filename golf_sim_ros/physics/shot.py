@@ -60,6 +60,7 @@ def end_shot(ball, number, now, kind, log):
 def tee_off(ball, now):
     """Begin a shot with the ball's velocity and spin at `now`. Writes what is kept of a shot."""
     ball['playing'] = 1
+    ball['knocked'] = 0
     ball['struck'] = now
     ball['end'] = now
     ball['ending'] = LAUNCH

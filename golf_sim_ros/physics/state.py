@@ -46,14 +46,17 @@ BALL = np.dtype([
     # the contact: part of the ground under it, its material, the normal out of it; until when its
     # bounces, too small to follow one by one, go on, and how hard they press meanwhile, over m g
     ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
+    # in a pile: whether it is, for how many steps it has been calm, what holds it (1 for the ground, 2
+    # for a ball, summed), rolling resistance [m/s]; asleep: whether it leans on a ball
+    ('piled', 'i8'), ('calm', 'i8'), ('held', 'i8'), ('braking', 'f8'), ('leans', 'i8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
     # and of the spin; what ends it and on which part of the ground, or at which other ball
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
     ('path', 'f8', (6, 3)), ('twist', 'f8', (4, 3)), ('ending', 'i8'), ('target', 'i8'),
     # the integrator's next step and its stages: rates of position, velocity, spin
     ('step', 'f8'), ('stages', 'f8', (8, 9)), ('evaluations', 'i8'),
-    # the shot under way
-    ('playing', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
+    # the shot under way; whether another ball has set it off
+    ('playing', 'i8'), ('knocked', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
     ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
     ('bounces', 'i8'), ('stalled', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
@@ -61,7 +64,7 @@ BALL = np.dtype([
 
 # What counts of a ball that does not move: the rest is written when it sets off.
 STANDING = ('position', 'velocity', 'spin', 'phase', 'support', 'material', 'normal', 'tail_end',
-            'tail_press')
+            'tail_press', 'leans')
 
 
 def plain(ball):

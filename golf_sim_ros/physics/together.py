@@ -9,9 +9,9 @@ that neither the order in memory nor left and right count.
 """
 from math import sqrt
 
-from . import crowd as crowd_
+from . import others
 from ._compile import kernel, shared
-from .crowd import CONTACTS, MEMBERS, next_node
+from .crowd import CONTACTS, MEMBERS, Crowd, next_node
 from .contact import material_of
 from .ground import surface
 from .impulse import Bond, friction, slip, take
@@ -52,8 +52,7 @@ def gather(land, balls, crowd, now):
     while k < crowd.count[MEMBERS]:
         i = crowd.members[k]
         gather_ground(land, balls[i], i, crowd, 0 if k == 0 else crowd.count[CONTACTS])
-        if crowd_.collide(crowd):
-            gather_balls(land, balls, i, k, crowd, now)
+        others.gather_balls(crowd, land, balls, i, now)
         k += 1
 
 
@@ -92,9 +91,9 @@ def new_contact(crowd, a, b, part, normal):
     return n
 
 
-@kernel
-def gather_balls(land, balls, i, k, crowd, now):
-    """Contacts of ball `i`, member `k`, with other balls; they become members."""
+@others.gather_balls.register(Crowd)
+def _gather_balls(crowd, land, balls, i, now):
+    k = crowd.places[i]
     radius = land.ball.radius
     here = vector(balls[i]['position'])
     low, high = surface.around(here, radius + TOGETHER)

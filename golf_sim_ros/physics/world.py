@@ -10,13 +10,13 @@ from . import model as model_
 from ._compile import stamp
 from .accuracy import preset
 from .advance import LOG_FULL, advance
-from .crowd import crowd
+from .crowd import scratch
 from .ground import surface
 from .piece import LONGEST_SHOT, put_down
 from .report import collision, objection, result, three
 from .shot import tee_off
-from .state import (BALL, BOUNCE, BUMP, FLIGHT, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL, SLIDE, STEP, Phase,
-                    new_log, plain, restored)
+from .state import (BALL, BOUNCE, BUMP, FLIGHT, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL, SLIDE, STEP,
+                    Phase, new_log, plain, restored)
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
@@ -71,7 +71,7 @@ class World:
         self._log, self._events, self._now, self._shots = new_log(), [], 0.0, 0
         self._balls = np.zeros(len(self.names), BALL)
         self._rebuild()
-        self._crowd = crowd(len(self.names), 'ball_ball' in self.effects_on)
+        self._crowd = scratch(len(self.names), 'ball_ball' in self.effects_on)
         self._tee_up()
 
     def _rebuild(self):
@@ -135,7 +135,7 @@ class World:
 
     def _types(self):
         """What decides which machine code is needed: the types of the model's records."""
-        records = (*self._chosen.records, self._preset.method, *self._model.land.ground.kinds)
+        records = (*self._model.effects, self._preset.method, *self._model.land.ground.kinds, self._crowd)
         return ' '.join(f'{type(r).__module__}.{type(r).__qualname__}' for r in records)
 
     def __getitem__(self, name):
@@ -174,7 +174,7 @@ class World:
         self._put_down(trial, position)
         self._settle_clock()
         self._balls[self.names.index(name)] = trial
-        ball['playing'] = 0
+        ball['playing'] = ball['knocked'] = 0
         self._set_off(ball, velocity, spin)
 
     def _put_down(self, ball, position):
