@@ -15,7 +15,8 @@ from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
 from .shot import end_shot, keep_highest, tee_off
-from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, OUT, SLIP_STOPS, STEP, TIME_LIMIT, moves)
+from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, HOLED, LAUNCH, OUT, REST, SLIP_STOPS, STEP, TIME_LIMIT,
+                    moves)
 from .vector import ZERO, along, put, unit, vector
 
 DONE, LOG_FULL = range(2)
@@ -82,6 +83,8 @@ def resolve(model, ball, number, log):
         settle(model.land, ball, now)
     if is_out(model, ball):
         ball['phase'] = OUT
+    elif ball['phase'] == REST and is_in_hole(model, ball):
+        ball['phase'] = HOLED
     if ball['playing'] and (not moves(ball['phase']) or ending == TIME_LIMIT):
         end_shot(ball, number, now, log)
 
@@ -98,6 +101,13 @@ def is_out(model, ball):
     heading = unit(vector(ball['velocity']), ZERO)
     ahead = along(vector(ball['position']), surface.LOOK_AHEAD, heading)
     return not surface.in_bounds(ground, ahead[0], ahead[1])
+
+
+@kernel
+def is_in_hole(model, ball):
+    """Whether the ball's centre is in the hole."""
+    hole = model.land.ground.hole
+    return len(hole) > 0 and surface.in_cup(hole, vector(ball['position']))
 
 
 @entry

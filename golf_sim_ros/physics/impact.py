@@ -80,6 +80,7 @@ def tell(land, ball, number, now, normal, before, log):
     event['ball'] = number
     event['kind'] = BOUNCE
     event['material'] = material_number(land, ball, ball['target'], normal)
+    event['sort'] = surface.sort(land.ground, ball['target'])
     put(event['position'], vector(ball['position']))
     put(event['normal'], normal)
     put(event['velocity_before'], before[0])

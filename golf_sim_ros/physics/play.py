@@ -143,7 +143,7 @@ def _played(course, strikes, gusts, effects, accuracy):
 
 def ground_height(course, x, y):
     """Height [m] and material's name of the highest ground at `x`, `y`, or None where there is none."""
-    z, part, number = surface.look_down(model.ground(course), x, y)
+    z, part, number = surface.look_down(model.bare_ground(course), x, y)
     if part < 0:
         return None
     return z, model.material_names(course)[number]

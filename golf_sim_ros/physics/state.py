@@ -83,7 +83,7 @@ def restored(values):
 BOUNCE, SHOT_ENDS = range(2)
 
 EVENT = np.dtype([
-    ('time', 'f8'), ('ball', 'i8'), ('kind', 'i8'), ('material', 'i8'),
+    ('time', 'f8'), ('ball', 'i8'), ('kind', 'i8'), ('material', 'i8'), ('sort', 'i8'),
     ('position', 'f8', 3), ('normal', 'f8', 3),
     ('velocity_before', 'f8', 3), ('velocity_after', 'f8', 3),
     ('spin_before', 'f8', 3), ('spin_after', 'f8', 3), ('impulse', 'f8', 3),
