@@ -79,7 +79,7 @@ def build(course, records, preset):
 
 
 def ground(course):
-    """`Ground` of a course for kernels: with obstacles, hole and flagstick; ValueError where no hole can be."""
+    """`Ground` of a course for kernels; ValueError where the hole is in ground that is too uneven."""
     number = {material: i for i, material in enumerate(materials(course))}
     if course.hole is None:
         return ground_.build(shapes(course), course.zones, course.bounds, None, number)

@@ -73,7 +73,8 @@ def cup_in(ground, x, y, names, material):
     if any(part < 0 for _, part, _ in found):
         raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round')
     z = np.array([height for height, _, _ in found])
-    waves = np.array([np.ones(SAMPLES), np.cos(angles), np.sin(angles), np.cos(2 * angles), np.sin(2 * angles)])
+    waves = np.array([np.ones(SAMPLES), np.cos(angles), np.sin(angles),
+                      np.cos(2 * angles), np.sin(2 * angles)])
     rim = np.linalg.lstsq(waves.T, z, rcond=None)[0]
     if np.abs(rim @ waves - z).max() > UNEVEN:
         raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round that is even to {UNEVEN:g} m')
