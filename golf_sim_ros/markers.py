@@ -153,7 +153,8 @@ def obstacle(number, shape):
         made = marker('obstacles', number, Marker.SPHERE, (across, across, across), shape.material.color)
         put(made, *shape.center)
     else:
-        made = marker('obstacles', number, Marker.CYLINDER, (across, across, shape.height), shape.material.color)
+        size = (across, across, shape.height)
+        made = marker('obstacles', number, Marker.CYLINDER, size, shape.material.color)
         x, y, z = shape.base
         put(made, x, y, z + 0.5 * shape.height)
     return made

@@ -46,7 +46,7 @@ def entry(value, key, checkers=FIELDS):
 
 
 def shipped():
-    """Entries of the shipped materials by name, those of cup and flagstick too, and the bytes of the files."""
+    """Entries of the shipped materials by name, cup and flagstick too, and the bytes of their files."""
     entries = {made.name: {name: value for name, value in made._asdict().items() if name != 'name'}
                for made in (CUP, FLAGSTICK)}
     sources = {}
