@@ -2,9 +2,9 @@
 """Ground: a file that has ``SHAPES`` and ``build`` is a kind of ground, found by itself.
 
 ``SHAPES`` are the record types that a course may hold, ``build(shapes, material_number)`` turns
-those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape in plan, sequences of (x, y) or ``Circle``, and
-``heights(shape)`` its lowest and highest ground. Every course gets every kind, empty ones too, so
-that a new course compiles nothing.
+those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape in plan,
+sequences of (x, y) or ``Circle``, and ``heights(shape)`` its lowest and highest ground. Every course
+gets every kind, empty ones too, so that a new course compiles nothing.
 """
 import importlib
 import pkgutil
