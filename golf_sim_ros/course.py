@@ -13,6 +13,7 @@ from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
+from .physics.ground.solid import Cylinder, Sphere
 from .share import share
 from .yaml_file import read_yaml
 
@@ -91,14 +92,18 @@ def course_of(content, base):
     read = fields({
         'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
         'bounds': polygon, 'air': air, 'wind_profile': tagged('law', PROFILES), 'effects': effects,
-        'ball': BALL, 'materials': mapping, 'wind_field': to_come, 'zones': to_come, 'water': to_come,
-        'obstacles': to_come,
+        'ball': BALL, 'materials': mapping, 'wind_field': to_come, 'water': to_come,
+        'zones': list_of(zone_of(known), 'a list of zones'),
+        'obstacles': list_of(obstacle_of(known), 'a list of obstacles'),
         'ground': list_of(shape_of(known), 'a list of one or more shapes', 1),
     }, needed=('format', 'ground'))
     found = read(content, '')
-    course = Course(**{name: value for name, value in found.items() if name in Course._fields})
+    course = Course(cup=known['cup'], stick=known['flagstick'],
+                    **{name: value for name, value in found.items() if name in Course._fields})
     for key in ('tee', 'hole'):
         on_ground(course, key)
+    if course.hole is not None:
+        even_around_hole(course)
     return course
 
 
@@ -107,6 +112,14 @@ def on_ground(course, key):
     place = getattr(course, key)
     if place is not None and physics.ground_height(course, *place) is None:
         raise refused(key, list(place), 'above some ground, and there is none')
+
+
+def even_around_hole(course):
+    """Refuse a course whose hole has no ground all round, or ground that is too uneven."""
+    try:
+        physics.check_hole(course)
+    except ValueError as error:
+        raise CourseError(str(error)) from None
 
 
 def format_number(value, key):
@@ -137,6 +150,27 @@ def shape_of(known):
         if shape.cut and abs(shape.normal[2]) < 1e-3:
             raise refused(f'{key}.cut', value['cut'], 'left out: seen from above, this shape is a line')
         return shape
+    return check
+
+
+def obstacle_of(known):
+    """Checker of an entry of ``obstacles``; `known` holds the materials by name."""
+    common = {'material': one_of(known), 'radius': number(1e-3)}
+    shapes = {
+        'cylinder': record(Cylinder, {**common, 'base': vector(3), 'height': number(1e-3)},
+                           ('base', 'radius', 'height', 'material')),
+        'sphere': record(Sphere, {**common, 'center': vector(3)}, ('center', 'radius', 'material')),
+    }
+    return tagged('shape', shapes)
+
+
+def zone_of(known):
+    """Checker of an entry of ``zones``; returns its material and its polygon."""
+    read = fields({'material': one_of(known), 'polygon': polygon}, ('material', 'polygon'))
+
+    def check(value, key):
+        found = read(value, key)
+        return found['material'], found['polygon']
     return check
 
 

@@ -8,15 +8,16 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from .physics import ground_height
+from .physics.ground.cup import DEPTH, RADIUS
 from .physics.ground.flat import frame
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
+from .physics.ground.solid import FLAGSTICK_HEIGHT, FLAGSTICK_RADIUS, Sphere
 from .slabs import triangles
 
 MARGIN = 60.0  # m of an endless plane that are drawn around everything else
-HOLE_DIAMETER = 0.108  # m, Rules of Golf
-FLAGSTICK = (0.02, 2.13)  # m: diameter and height, as the USGA recommends
-FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the hole
+HOLE_DIAMETER = 2 * RADIUS
+FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the stick's foot
 TEE_MARKERS = 4.0  # m from one to the other
 UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
 BLACK, WHITE, RED = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.85, 0.1, 0.1)
@@ -30,7 +31,7 @@ def course_markers(course, frame_id):
         found.extend(corner for triangle in surface(shape, course, number) for corner in triangle)
     lists = [ground_marker(number, material, corners)
              for number, (material, corners) in enumerate(by_material.items()) if corners]
-    markers = [*lists, *tee(course), *hole(course)]
+    markers = [*lists, *tee(course), *hole(course), *obstacles(course)]
     for marker in markers:
         marker.header.frame_id = frame_id
     return MarkerArray(markers=markers)
@@ -127,17 +128,36 @@ def hole(course):
     z = ground_height(course, x, y)[0]
     disc = marker('hole', 0, Marker.CYLINDER, (HOLE_DIAMETER, HOLE_DIAMETER, 0.004), BLACK)
     put(disc, x, y, z)
-    return [disc, *flagstick(x, y, z)] if course.flagstick else [disc]
+    return [disc, *flagstick(x, y, z - DEPTH)] if course.flagstick else [disc]
 
 
 def flagstick(x, y, z):
-    """Stick and flag over a hole at `x`, `y`, `z`."""
-    diameter, height = FLAGSTICK
+    """Stick and flag over a hole whose bottom is at `x`, `y`, `z`."""
+    diameter, height = 2 * FLAGSTICK_RADIUS, FLAGSTICK_HEIGHT
     stick = marker('hole', 1, Marker.CYLINDER, (diameter, diameter, height), WHITE)
     put(stick, x, y, z + 0.5 * height)
     flag = marker('hole', 2, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), RED)
     flag.points = points((x + ahead, y, z + over) for ahead, over in FLAG)
     return [stick, flag]
+
+
+def obstacles(course):
+    """Cylinders and spheres."""
+    return [obstacle(number, shape) for number, shape in enumerate(course.obstacles)]
+
+
+def obstacle(number, shape):
+    """Marker of a cylinder or sphere."""
+    across = 2 * shape.radius
+    if isinstance(shape, Sphere):
+        made = marker('obstacles', number, Marker.SPHERE, (across, across, across), shape.material.color)
+        put(made, *shape.center)
+    else:
+        size = (across, across, shape.height)
+        made = marker('obstacles', number, Marker.CYLINDER, size, shape.material.color)
+        x, y, z = shape.base
+        put(made, x, y, z + 0.5 * shape.height)
+    return made
 
 
 def marker(namespace, number, kind, scale, color):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Materials: the shipped ones, one YAML file each, and those that a course adds or changes."""
 from .checked import CourseError, below, fields, mapping, number, record, tagged, text, unknown, vector
+from .physics.ground.cup import CUP
+from .physics.ground.solid import FLAGSTICK
 from .physics.material import PENNER, Material, Restitution, rolling_resistance_of_stimp
 from .share import share
 from .yaml_file import read_yaml
@@ -29,6 +31,7 @@ FIELDS = {
     'pivot_friction': number(0),
     'softness': number(0, 100),
     'color': vector(3, 0, 1),
+    'drag': number(0, 1000),
 }
 
 
@@ -43,8 +46,10 @@ def entry(value, key, checkers=FIELDS):
 
 
 def shipped():
-    """Entries of the shipped materials by name, and the bytes of their files by name."""
-    entries, sources = {}, {}
+    """Entries of the shipped materials by name, cup and flagstick too, and the bytes of their files."""
+    entries = {made.name: {name: value for name, value in made._asdict().items() if name != 'name'}
+               for made in (CUP, FLAGSTICK)}
+    sources = {}
     for path in sorted(share('config', 'materials').glob('*.yaml')):
         sources[path.stem], content = read_yaml(path)
         try:

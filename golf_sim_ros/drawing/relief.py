@@ -35,6 +35,6 @@ def relief(course, x, y):
     """
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
     heights, numbers = np.empty(x.size), np.empty(x.size, np.int64)
-    look_down(model.ground(course), x.flatten(), y.flatten(), heights, numbers)
+    look_down(model.bare_ground(course), x.flatten(), y.flatten(), heights, numbers)
     heights[numbers < 0] = np.nan
     return heights.reshape(x.shape), numbers.reshape(x.shape)

@@ -7,16 +7,17 @@ from .effects import EFFECTS, register_effect
 from .effects.wind import LogProfile, PowerProfile, UniformProfile
 from .ground.patch import Patch
 from .ground.plane import Plane
+from .ground.solid import Cylinder, Sphere
 from .integrators import METHODS
 from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
-from .play import Play, ground_height, simulate, simulate_many
+from .play import Play, check_hole, ground_height, simulate, simulate_many
 from .report import Collision, Result
 from .state import Phase, Shot
 from .world import BallState, Rejected, World
 
 __all__ = [
-    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'EFFECTS', 'LogProfile',
+    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'LogProfile',
     'METHODS', 'Material', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected',
-    'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'ground_height',
+    'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile', 'World', 'check_hole', 'ground_height',
     'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
     'standard_atmosphere']

@@ -18,8 +18,8 @@ from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
 from .shot import end_shot, keep_highest, tee_off
-from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, LAUNCH, LOST, MEETING, OUT, SHOT_ENDS, SLIP_STOPS, STEP,
-                    TIME_LIMIT, moves)
+from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, HOLED, LAUNCH, LOST, MEETING, OUT, REST, SHOT_ENDS,
+                    SLIP_STOPS, STEP, TIME_LIMIT, moves)
 from .together import disperse, enlist
 from .vector import ZERO, along, put, unit, vector
 
@@ -101,6 +101,8 @@ def finish(model, ball, number, now, log):
         ball['phase'] = OUT
         if ball['knocked'] and not ball['playing']:
             end_shot(ball, number, now, LOST, log)
+    elif ball['phase'] == REST and is_in_hole(model, ball):
+        ball['phase'] = HOLED
     if ball['playing'] and (not moves(ball['phase']) or ball['ending'] == TIME_LIMIT):
         end_shot(ball, number, now, SHOT_ENDS, log)
 
@@ -133,6 +135,13 @@ def is_out(model, ball):
     heading = unit(vector(ball['velocity']), ZERO)
     ahead = along(vector(ball['position']), surface.LOOK_AHEAD, heading)
     return not surface.in_bounds(ground, ahead[0], ahead[1])
+
+
+@kernel
+def is_in_hole(model, ball):
+    """Whether the ball's centre is in the hole."""
+    hole = model.land.ground.hole
+    return len(hole) > 0 and surface.in_cup(hole, vector(ball['position']))
 
 
 @entry

@@ -68,7 +68,8 @@ def hold(land, ball, now):
         put(ball['velocity'], scale(left / speed, vector(ball['velocity'])))
         put(ball['spin'], scale(left / speed, vector(ball['spin'])))
     ball['phase'] = FLIGHT
-    ball['step'] = 0.0
+    # What is held does not hop: else the rounding of its rise would decide the next step's length.
+    ball['step'] = CAUGHT_STEP if surfaces > 0 else 0.0
     if surfaces == 0:
         ball['stalled'] = 0
     elif left < AT_REST and ball['support'] != NO_PART:

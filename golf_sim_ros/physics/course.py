@@ -4,6 +4,9 @@ from typing import NamedTuple, Optional, Union
 
 from .air import Air
 from .effects.wind import LogProfile
+from .ground.cup import CUP
+from .ground.solid import FLAGSTICK
+from .material import Material
 
 
 class Ball(NamedTuple):
@@ -30,13 +33,17 @@ class Course(NamedTuple):
     tee : (float, float)
         x, y of the first ball [m].
     hole : (float, float) or None
+        x, y; the ground must be even all round.
     flagstick : bool
+        Whether one stands in the hole.
+    cup, stick : Material
+        Of the hole's bottom, and of the flagstick; rim and wall are of the ground around.
     bounds : tuple of (float, float), or None
         Corners of the polygon that a ball on the ground may not leave.
     zones : tuple of (Material, tuple of (float, float))
         Polygons that repaint the ground from above, later over earlier.
     obstacles : tuple
-        Shapes that stand on the ground and are none.
+        Shapes that stand on the ground and are none: hard, or leaves where the material has a drag.
     air : Air
     wind_profile : LogProfile, PowerProfile or UniformProfile
     effects : 'auto' or tuple of str
@@ -49,6 +56,8 @@ class Course(NamedTuple):
     tee: tuple = (0.0, 0.0)
     hole: Optional[tuple] = None
     flagstick: bool = True
+    cup: Material = CUP
+    stick: Material = FLAGSTICK
     bounds: Optional[tuple] = None
     zones: tuple = ()
     obstacles: tuple = ()

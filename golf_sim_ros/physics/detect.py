@@ -255,9 +255,11 @@ def first_border(ground, ball, radius, until):
         shift = 0.0 if border['bounds'] else -radius
         dx = shift * ball['normal'][0]
         dy = shift * ball['normal'][1]
-        if (x[1] + dx < min(border['start'][0], end_x) or x[0] + dx > max(border['start'][0], end_x)
-                or y[1] + dy < min(border['start'][1], end_y)
-                or y[0] + dy > max(border['start'][1], end_y)):
+        room = border['radius']
+        if (x[1] + dx < min(border['start'][0], end_x) - room
+                or x[0] + dx > max(border['start'][0], end_x) + room
+                or y[1] + dy < min(border['start'][1], end_y) - room
+                or y[0] + dy > max(border['start'][1], end_y) + room):
             continue
         time = crossing(border, ball, (dx, dy, 0.0), bend, best)
         if time < best:

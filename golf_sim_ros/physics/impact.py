@@ -17,6 +17,7 @@ from .vector import ZERO, along, dot, length, put, scale, sub, vector
 
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
+ROUND = 0.01  # of its speed: the same of a wall that closes around it, or one turn is thousands of bounces
 SLOW = 3.0  # m/s: slower than this the air hardly matters
 LEAST_SETTLE = 1e-6  # m/s: a bounce 0.05 picometres high
 
@@ -87,6 +88,7 @@ def tell(land, ball, number, now, normal, before, log):
     event['ball'] = number
     event['kind'] = BOUNCE
     event['material'] = material_number(land, ball, ball['target'], normal)
+    event['sort'] = surface.sort(land.ground, ball['target'])
     put(event['position'], vector(ball['position']))
     put(event['normal'], normal)
     put(event['velocity_before'], before[0])
@@ -114,7 +116,7 @@ def after_impact(land, ball, now, impact, normal):
             settle(land, ball, now)
             return
     else:
-        least = min(approach, WALL_REBOUND)
+        least = min(approach, wall_rebound(land, ball))
         if rebound < least:
             put(ball['velocity'], along(vector(ball['velocity']), least - rebound, normal))
         if supported and abs(dot(vector(ball['velocity']), vector(ball['normal']))) <= STILL:
@@ -124,6 +126,14 @@ def after_impact(land, ball, now, impact, normal):
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
     put(ball['normal'], normal)
+
+
+@kernel
+def wall_rebound(land, ball):
+    """Speed [m/s] up to which a wall gives all of the approach back."""
+    if surface.hollow(land.ground, ball['target']) == 0.0:
+        return WALL_REBOUND
+    return max(WALL_REBOUND, ROUND * length(vector(ball['velocity'])))
 
 
 @kernel

@@ -49,6 +49,8 @@ class Material(NamedTuple):
         Scales the tilt of the contact normal of soft turf; 0 is hard.
     color : tuple of 3 floats
         Red, green, blue, 0..1.
+    drag : float
+        Over 0 a ball passes through, as through leaves, and is braked by drag v^2 at speed v [1/m].
     """
 
     name: str = 'ideal'
@@ -60,6 +62,7 @@ class Material(NamedTuple):
     pivot_friction: float = 0.0
     softness: float = 0.0
     color: tuple = (0.5, 0.5, 0.5)
+    drag: float = 0.0
 
 
 def rolling_resistance_of_stimp(stimp):

@@ -8,6 +8,8 @@ from . import effects as effects_
 from . import ground as ground_
 from .course import Ball
 from .effects import Scene, laws
+from .ground.cup import cup_in, opening
+from .ground.solid import Flagstick
 from .ground.surface import Ground
 from .material import table
 
@@ -55,12 +57,13 @@ def material_names(course):
 def materials(course):
     """Materials of a course, in the order of their numbers."""
     return tuple(dict.fromkeys([*(shape.material for shape in shapes(course)),
-                                *(material for material, _ in course.zones)]))
+                                *(material for material, _ in course.zones),
+                                *((course.cup, course.stick) if course.hole else ())]))
 
 
 def shapes(course):
-    """All that a course's balls can touch."""
-    return course.ground + course.obstacles
+    """Ground and obstacles that a course's balls can touch: they pass through leaves."""
+    return course.ground + tuple(o for o in course.obstacles if o.material.drag == 0.0)
 
 
 def build(course, records, preset):
@@ -85,9 +88,20 @@ def speaking(records, *some):
 
 
 def ground(course):
-    """`Ground` of a course for kernels."""
+    """`Ground` of a course for kernels; ValueError where the hole is in ground that is too uneven."""
     number = {material: i for i, material in enumerate(materials(course))}
-    return ground_.build(shapes(course), course.zones, course.bounds, None, number)
+    if course.hole is None:
+        return ground_.build(shapes(course), course.zones, course.bounds, None, number)
+    cup = cup_in(bare_ground(course), *course.hole, materials(course), course.cup)
+    bottom = (*course.hole, opening(cup)[-1])
+    stick = (Flagstick(bottom, material=course.stick),) if course.flagstick else ()
+    return ground_.build((*shapes(course), cup, *stick), course.zones, course.bounds, opening(cup), number)
+
+
+def bare_ground(course):
+    """`Ground` of a course without obstacles, hole and flagstick: what its heights are asked of."""
+    number = {material: i for i, material in enumerate(materials(course))}
+    return ground_.build(course.ground, course.zones, course.bounds, None, number)
 
 
 def choose(names, course, balls, wind):

@@ -141,9 +141,14 @@ def _played(course, strikes, gusts, effects, accuracy):
     return summary(ends, course.hole, world._materials)
 
 
+def check_hole(course):
+    """Raise ValueError where the ground around the course's hole can't have one."""
+    model.ground(course)
+
+
 def ground_height(course, x, y):
     """Height [m] and material's name of the highest ground at `x`, `y`, or None where there is none."""
-    z, part, number = surface.look_down(model.ground(course), x, y)
+    z, part, number = surface.look_down(model.bare_ground(course), x, y)
     if part < 0:
         return None
     return z, model.material_names(course)[number]

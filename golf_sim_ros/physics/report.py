@@ -11,8 +11,8 @@ from .state import Phase
 class Collision(NamedTuple):
     """An impact of more than 0.1 m/s approach; SI units, the course's frame.
 
-    ``with_`` is a material's or a ball's name, ``normal`` points out of what was hit and
-    ``impulse`` [N s] acted on ``ball``.
+    ``kind`` is one of `KINDS`, ``with_`` a material's or a ball's name, ``normal`` points out of what was
+    hit and ``impulse`` [N s] acted on ``ball``.
     """
 
     time: float
@@ -62,6 +62,7 @@ class Result(NamedTuple):
     reason: str = ''
 
 
+KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.laws.sort
 STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds'}
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
@@ -109,7 +110,8 @@ def summary(balls, hole, lies):
     told['bounces'], told['position'] = balls['bounces'], balls['position']
     told['velocity'], told['spin'] = balls['launch'], balls['launch_spin']
     x, y = hole or (np.nan, np.nan)
-    told['to_hole'] = np.hypot(x - balls['position'][:, 0], y - balls['position'][:, 1])
+    left = np.hypot(x - balls['position'][:, 0], y - balls['position'][:, 1])
+    told['to_hole'] = np.where(balls['phase'] == Phase.HOLED, 0.0, left)
     return told
 
 

@@ -13,7 +13,7 @@ from .advance import LOG_FULL, advance
 from .crowd import scratch
 from .ground import surface
 from .piece import LONGEST_SHOT, put_down
-from .report import collision, objection, result, three
+from .report import KINDS, collision, objection, result, three
 from .shot import tee_off
 from .state import (BALL, BOUNCE, BUMP, FLIGHT, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL, SLIDE, STEP,
                     Phase, new_log, plain, restored)
@@ -276,7 +276,8 @@ class World:
             ball, name = self._balls[event['ball']], self.names[event['ball']]
             time = start + float(event['time'])
             if event['kind'] == BOUNCE:
-                events.append(collision(event, time, name, 'bounce', self._materials[event['material']]))
+                events.append(collision(event, time, name, KINDS[event['sort']],
+                                        self._materials[event['material']]))
             elif event['kind'] == BUMP:
                 events.append(collision(event, time, name, 'ball', self.names[event['material']]))
             elif event['kind'] == LOST:

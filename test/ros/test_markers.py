@@ -9,7 +9,8 @@ from visualization_msgs.msg import Marker
 from golf_sim_ros.course import load_course
 from golf_sim_ros.markers import course_markers, HOLE_DIAMETER, MARGIN, outskirts
 from golf_sim_ros.messages import header
-from golf_sim_ros.physics import Course, ground_height, Material, Patch, Plane, World
+from golf_sim_ros.physics import Course, Cylinder, ground_height, Material, Patch, Plane, Sphere, World
+from golf_sim_ros.physics.ground.cup import DEPTH
 from golf_sim_ros.play_markers import CONTACTS, Scene, Trail, TRAIL
 from golf_sim_ros.slabs import inside, triangles
 
@@ -144,11 +145,21 @@ def test_the_hole_has_a_disc_a_stick_and_a_flag_and_a_course_without_has_none(co
     disc, stick, flag = [m for m in course_markers(course, 'course').markers if m.ns == 'hole']
     assert disc.scale.x == HOLE_DIAMETER
     assert (disc.pose.position.x, disc.pose.position.y, disc.pose.position.z) == (x, y, z)
-    assert stick.pose.position.z - 0.5 * stick.scale.z == pytest.approx(z)
-    assert max(point.z for point in flag.points) == pytest.approx(z + stick.scale.z)
+    assert stick.pose.position.z - 0.5 * stick.scale.z == pytest.approx(z - DEPTH)
+    assert max(point.z for point in flag.points) == pytest.approx(z - DEPTH + stick.scale.z)
     bare = course._replace(flagstick=False)
     assert [m.type for m in course_markers(bare, 'course').markers if m.ns == 'hole'] == [Marker.CYLINDER]
     assert not [m for m in course_markers(course._replace(hole=None), 'course').markers if m.ns == 'hole']
+
+
+def test_a_tree_is_a_cylinder_and_a_sphere_in_their_colours():
+    tree = (Cylinder((60.0, 12.0, 1.0), 0.3, 8.0, SAND), Sphere((60.0, 12.0, 9.0), 2.5, GRASS))
+    array = course_markers(Course((Plane(material=GRASS),), obstacles=tree), 'course')
+    trunk, crown = [m for m in array.markers if m.ns == 'obstacles']
+    assert (trunk.type, trunk.scale.x, trunk.scale.z) == (Marker.CYLINDER, 0.6, 8.0)
+    assert (trunk.pose.position.x, trunk.pose.position.z) == (60.0, 5.0)
+    assert (crown.type, crown.scale.z, crown.pose.position.z) == (Marker.SPHERE, 5.0, 9.0)
+    assert crown.color.g == pytest.approx(0.5)
 
 
 def test_the_tee_stands_on_the_ground_on_both_sides_of_the_ball(course):

@@ -10,6 +10,7 @@ the effect awakes. Other packages add theirs with :func:`register_effect`.
 import importlib
 import inspect
 import pkgutil
+from math import inf
 from typing import Callable, NamedTuple, Optional
 
 from .._compile import kernel, literal_unroll
@@ -110,13 +111,22 @@ def pull(effects, position):
 def flight_rates(effects, ground, position, velocity, spin):
     """Acceleration and rate of change of spin of a flying ball."""
     through_air = sub(velocity, wind_at(effects, ground, position))
-    flow = laws.Flow(through_air, length(through_air), spin, position)
+    flow = laws.Flow(through_air, length(through_air), spin, position, velocity)
     force = ZERO
     torque = ZERO
     for effect in literal_unroll(effects):
         force = add(force, add(laws.gravity(effect, position), laws.acceleration(effect, flow)))
         torque = add(torque, laws.spin_rate(effect, flow))
     return force, torque
+
+
+@kernel
+def longest_step(effects, position, velocity):
+    """Longest step of flight [s] that can't overlook any effect."""
+    longest = inf
+    for effect in literal_unroll(effects):
+        longest = min(longest, laws.longest_step(effect, position, velocity))
+    return longest
 
 
 @kernel

@@ -4,6 +4,7 @@
 Every effect is a record, a ``NamedTuple`` of floats: its type is chosen when the kernel compiles,
 its fields are free to change while running.
 """
+from math import inf
 from typing import NamedTuple
 
 from .._compile import generic
@@ -13,13 +14,15 @@ from ..vector import ZERO
 class Flow(NamedTuple):
     """The air as a flying ball meets it.
 
-    ``velocity`` and ``speed`` of the ball through the air [m/s]; ``spin`` [rad/s]; ``position``.
+    ``velocity`` and ``speed`` of the ball through the air [m/s]; ``spin`` [rad/s]; ``position``;
+    ``over_ground``: velocity as the ground sees it.
     """
 
     velocity: tuple
     speed: float
     spin: tuple
     position: tuple
+    over_ground: tuple
 
 
 @generic
@@ -38,6 +41,12 @@ def acceleration(effect, flow):
 def spin_rate(effect, flow):
     """Rate of change of spin [rad/s^2] of a flying ball by `effect` in `flow`."""
     return ZERO
+
+
+@generic
+def longest_step(effect, position, velocity):
+    """Longest step of flight [s] from `position` that can't overlook `effect`."""
+    return inf
 
 
 @generic

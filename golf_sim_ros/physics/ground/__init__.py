@@ -2,16 +2,16 @@
 """Ground: a file that has ``SHAPES`` and ``build`` is a kind of ground, found by itself.
 
 ``SHAPES`` are the record types that a course may hold, ``build(shapes, material_number)`` turns
-those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape and
-``heights(shape)`` its lowest and highest ground. Every course gets every kind, empty ones too, so
-that a new course compiles nothing.
+those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape in plan,
+sequences of (x, y) or ``Circle``, and ``heights(shape)`` its lowest and highest ground. Every course
+gets every kind, empty ones too, so that a new course compiles nothing.
 """
 import importlib
 import pkgutil
 
 import numpy as np
 
-from .polygon import polygons, sides
+from .polygon import Circle, polygons, sides
 from .surface import BORDER, Ground
 
 KINDS = [module for module in
@@ -27,8 +27,8 @@ def build(shapes, zones, bounds, hole, material_number):
     shapes : sequence of shapes
     zones : sequence of (Material, outline)
     bounds : outline or None
-    hole : (x, y, radius, lowest, highest) or None
-        Circle that is cut into ground at those heights.
+    hole : (x, y, radius, lowest, highest, bottom) or None
+        Circle that is cut into ground at those heights, and how far down; see `cup.opening`.
     material_number : dict of Material to int
 
     Raises
@@ -46,7 +46,7 @@ def build(shapes, zones, bounds, hole, material_number):
     outlines = [o for kind, own in by_kind for s in own for o in kind.plan(s)]
     outlines += [outline for _, outline in zones]
     heights = [kind.heights(s) for kind, own in by_kind for s in own]
-    return Ground(kinds, _borders(outlines, [bounds] if bounds else [], hole),
+    return Ground(kinds, _borders(outlines, [bounds] if bounds else []),
                   polygons([outline for _, outline in zones]),
                   np.array([material_number[material] for material, _ in zones], np.int64),
                   polygons([bounds] if bounds else []), np.array(hole or (), float),
@@ -54,14 +54,15 @@ def build(shapes, zones, bounds, hole, material_number):
                   float(max((high for _, high in heights), default=0.0)))
 
 
-def _borders(outlines, bounds, hole):
+def _borders(outlines, bounds):
     rows = []
     for is_bounds, outline in [(0, o) for o in outlines] + [(1, o) for o in bounds]:
+        if isinstance(outline, Circle):
+            rows.append(((outline.x, outline.y), (1.0, 0.0), 0.0, outline.radius, is_bounds))
+            continue
         for start, end in sides(outline):
             start, end = np.asarray(start, float), np.asarray(end, float)
             size = np.linalg.norm(end - start)
             if size > 1e-9:  # an upright patch has no width in plan
                 rows.append((start, (end - start) / size, size, 0.0, is_bounds))
-    if hole:
-        rows.append((hole[:2], (1.0, 0.0), 0.0, hole[2], 0))
     return np.array(rows, BORDER)

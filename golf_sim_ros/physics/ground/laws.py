@@ -9,6 +9,7 @@ from .._compile import generic
 from ..vector import ZERO, along, length, scale, sub
 
 NOTHING = (-1e300, -1)
+GROUND, CUP, FLAGSTICK, OBSTACLE = range(4)
 
 
 @generic
@@ -99,6 +100,12 @@ def goes_on(kind, part, other):
 def is_ground(kind):
     """Whether zones repaint it and the hole is cut into it."""
     return True
+
+
+@generic
+def sort(kind, part):
+    """Whether `part` is GROUND, CUP, FLAGSTICK or OBSTACLE: what an impact with it is told as."""
+    return GROUND
 
 
 @generic

@@ -14,6 +14,14 @@ class Polygons(NamedTuple):
     first: np.ndarray
 
 
+class Circle(NamedTuple):
+    """A round outline in plan."""
+
+    x: float
+    y: float
+    radius: float
+
+
 def polygons(outlines):
     """`Polygons` of sequences of (x, y)."""
     first = np.cumsum([0] + [len(outline) for outline in outlines]).astype(np.int64)

@@ -30,7 +30,8 @@ class Ground(NamedTuple):
     ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
     surface may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
     ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
-    greatest height of the rim; all ground but tilted planes lies between ``lowest`` and ``highest``.
+    greatest height of the rim, height of the bottom; all ground but tilted planes lies between
+    ``lowest`` and ``highest``.
     """
 
     kinds: tuple
@@ -66,6 +67,7 @@ flat_under = of_its_kind(laws.flat_under, False)
 in_plane = of_its_kind(laws.in_plane, False)
 limit = of_its_kind(laws.limit, (ZERO, ZERO))
 _touchable = of_its_kind(laws.touchable, False)
+sort = of_its_kind(laws.sort, laws.GROUND)
 _own_material = of_its_kind(laws.material_of, 0)
 
 
@@ -159,6 +161,14 @@ def in_hole(hole, place):
     dx = place[0] - hole[0]
     dy = place[1] - hole[1]
     return (dx * dx + dy * dy < hole[2] * hole[2] and hole[3] - RIM_REACH < place[2] < hole[4] + RIM_REACH)
+
+
+@kernel
+def in_cup(hole, place):
+    """Whether `place` lies in the hole, below all of its rim."""
+    dx = place[0] - hole[0]
+    dy = place[1] - hole[1]
+    return dx * dx + dy * dy < hole[2] * hole[2] and hole[5] < place[2] < hole[3]
 
 
 @shared

@@ -2,6 +2,7 @@
 """Semi-implicit Euler: what most game engines do. A baseline, of order 1."""
 from typing import NamedTuple
 
+from ..effects import longest_step
 from ..path import lay
 from ..state import STEP
 from ..vector import along, put, scale, vector
@@ -17,6 +18,7 @@ class SemiImplicitEuler(NamedTuple):
 @runge_kutta.step.register(SemiImplicitEuler)
 def _step(method, model, ball):
     h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
+    h = min(h, longest_step(model.effects, vector(ball['position']), vector(ball['velocity'])))
     runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
     rates = ball['stages'][0]
     force = vector(rates[3:6])

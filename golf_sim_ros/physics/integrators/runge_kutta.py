@@ -5,7 +5,7 @@ from math import inf, sqrt
 import numpy as np
 
 from .._compile import generic, kernel
-from ..effects import pull, wind_at
+from ..effects import longest_step, pull, wind_at
 from ..motion import rates
 from ..path import lay
 from ..state import STEP
@@ -127,6 +127,7 @@ def step(method, model, ball):
     h = ball['step']
     if h == 0.0:
         h = first_step(method, airspeed(model, ball), hop(model, ball))
+    h = min(h, longest_step(model.effects, vector(ball['position']), vector(ball['velocity'])))
     stage(model, ball, 0, state_after(ball, NO_CHANGE))
     while True:
         change = NO_CHANGE

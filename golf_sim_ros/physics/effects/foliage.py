@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Leaves: they brake a ball that passes through them, and do not turn it."""
+from math import inf, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from .._compile import kernel
+from ..ground.solid import Sphere, box
+from ..vector import ZERO, length, scale
+from . import laws
+
+LEAF = np.dtype([('center', 'f8', 3), ('radius', 'f8'), ('low', 'f8'), ('high', 'f8'), ('is_sphere', 'i8'),
+                 ('drag', 'f8')], align=True)
+FINE = 0.1  # of a body's radius: the longest step near it and in it
+
+
+class Foliage(NamedTuple):
+    """Bodies of leaves: in one a ball of velocity v is braked by drag |v| v, drag in 1/m."""
+
+    bodies: np.ndarray
+
+
+@kernel
+def clearance(body, point):
+    """Distance of `point` from a body of leaves at least: 0 or less in it."""
+    dx = point[0] - body['center'][0]
+    dy = point[1] - body['center'][1]
+    if body['is_sphere']:
+        dz = point[2] - body['center'][2]
+        return sqrt(dx * dx + dy * dy + dz * dz) - body['radius']
+    over = max(point[2] - body['high'], body['low'] - point[2])
+    return max(over, sqrt(dx * dx + dy * dy) - body['radius'])
+
+
+@laws.acceleration.register(Foliage)
+def _acceleration(effect, flow):
+    total = 0.0
+    for i in range(len(effect.bodies)):
+        if clearance(effect.bodies[i], flow.position) < 0.0:
+            total += effect.bodies[i]['drag']
+    if total == 0.0:
+        return ZERO
+    return scale(-total * length(flow.over_ground), flow.over_ground)
+
+
+@laws.longest_step.register(Foliage)
+def _longest_step(effect, position, velocity):
+    speed = length(velocity)
+    way = inf
+    for i in range(len(effect.bodies)):
+        body = effect.bodies[i]
+        way = min(way, max(clearance(body, position), FINE * body['radius']))
+    return way / speed if speed > 0.0 else inf
+
+
+def leafy(course):
+    """Obstacles of a course that are leaves."""
+    return [shape for shape in course.obstacles if shape.material.drag > 0.0]
+
+
+def record(scene):
+    """Record for `scene`."""
+    rows = []
+    for shape in leafy(scene.course):
+        is_sphere = isinstance(shape, Sphere)
+        low, high = box(shape)
+        rows.append((shape.center if is_sphere else shape.base, shape.radius, low[2], high[2], is_sphere,
+                     shape.material.drag))
+    return Foliage(np.array(rows, LEAF))
+
+
+def idle(scene):
+    """Why `scene` can do without: where nothing has leaves."""
+    return '' if leafy(scene.course) else 'no leaves'
