@@ -39,14 +39,17 @@ def lay_next(model, ball, now):
     if is_caught(ball):
         on = CAUGHT
         until = min(until, caught_step(ball))
+    # Borders first: on a mesh the next one is near, and contacts beyond it need not be looked for.
+    crosses = False
+    if on == ON_FLAT or on == ON_CURVE:
+        until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
+    border = until
     until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
     if hit:
         ball['ending'] = HIT
         ball['target'] = part
-    if on == ON_FLAT or on == ON_CURVE:
-        until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
-        if crosses:
-            ball['ending'] = BORDER
+    elif crosses and until == border:
+        ball['ending'] = BORDER
     if until < ball['span'] and ball['ending'] != HIT and ball['ending'] != BORDER:
         ball['ending'] = STEP
     ball['end'] = now + until
@@ -59,7 +62,9 @@ def lay_next(model, ball, now):
 def lay_contact(model, ball, now):
     """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
     land = model.land
-    if surface.flat_under(land.ground, ball['support'], vector(ball['position'])) and not goes_on(land, ball):
+    # A part with limits may have been left by a hair's breadth, up to where it was seen what comes next.
+    if not goes_on(land, ball) and (surface.limits(land.ground, ball['support']) > 0
+                                    or surface.flat_under(land.ground, ball['support'], vector(ball['position']))):
         cross_border(land, ball, now)
         if not moves(ball['phase']) or ball['phase'] == FLIGHT:
             return IN_THE_AIR
