@@ -5,6 +5,7 @@ from .air import Air, standard_atmosphere
 from .course import Ball, Course
 from .effects import EFFECTS, register_effect
 from .effects.wind import LogProfile, PowerProfile, UniformProfile
+from .ground.mesh import Mesh
 from .ground.patch import Patch
 from .ground.plane import Plane
 from .integrators import METHODS
@@ -16,7 +17,7 @@ from .world import BallState, Rejected, World
 
 __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'EFFECTS', 'LogProfile',
-    'METHODS', 'Material', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected',
+    'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected',
     'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'ground_height',
     'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
     'standard_atmosphere']

@@ -43,6 +43,8 @@ class Course(NamedTuple):
     ball : Ball
     name, path, digest : str
         What a person calls it; where it was read; a hash of all that was read.
+    notes : tuple of str
+        What was put right in it when it was read: a line each.
     """
 
     ground: tuple
@@ -59,3 +61,4 @@ class Course(NamedTuple):
     name: str = ''
     path: str = ''
     digest: str = ''
+    notes: tuple = ()
