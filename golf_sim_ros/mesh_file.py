@@ -53,7 +53,7 @@ def stl(raw, path):
     elif raw.lstrip().startswith(b'solid'):
         corners = stl_text(raw)
     else:
-        raise CourseError(f'is no STL file: {len(raw)} bytes do not hold the {count} triangles that it tells of')
+        raise CourseError(f'is no STL file: {len(raw)} bytes do not hold the {count} triangles it tells of')
     vertices = corners.reshape(-1, 3).astype(float)
     return vertices, np.arange(len(vertices)).reshape(-1, 3)
 

@@ -17,7 +17,7 @@ from .world import BallState, Rejected, World
 
 __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'EFFECTS', 'LogProfile',
-    'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected',
-    'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'ground_height',
+    'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset',
+    'Rejected', 'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'ground_height',
     'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
     'standard_atmosphere']

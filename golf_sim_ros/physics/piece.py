@@ -13,7 +13,7 @@ from .impact import cross_border
 from .integrators import step
 from .motion import STILL
 from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
-from .vector import ZERO, along, cross, dot, length, put, scale, vector
+from .vector import ZERO, along, cross, dot, length, put, scale, unit, vector
 
 LONGEST_SHOT = 300.0  # s
 
@@ -62,13 +62,12 @@ def lay_next(model, ball, now):
 def lay_contact(model, ball, now):
     """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
     land = model.land
-    # A part with limits may have been left by a hair's breadth, up to where it was seen what comes next.
-    if not goes_on(land, ball) and (surface.limits(land.ground, ball['support']) > 0
-                                    or surface.flat_under(land.ground, ball['support'], vector(ball['position']))):
+    if surface.flat_under(land.ground, ball['support'], vector(ball['position'])) and not goes_on(land, ball):
         cross_border(land, ball, now)
         if not moves(ball['phase']) or ball['phase'] == FLIGHT:
             return IN_THE_AIR
-    _, normal = surface.nearest(land.ground, ball['support'], vector(ball['position']))
+    ahead = unit(vector(ball['velocity']), ZERO)
+    _, normal = surface.under(land.ground, ball['support'], vector(ball['position']), ahead)
     put(ball['normal'], normal)
     if goes_on(land, ball):
         flat_piece(land, ball, now)

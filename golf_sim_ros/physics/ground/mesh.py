@@ -17,9 +17,7 @@ from .flat import ROUNDING, SAME_HEIGHT, meets
 from .hierarchy import NODE, hierarchy
 
 AHEAD = 1e-7  # m: which way a ball on a border turns is decided this far ahead
-# m: so near to a triangle in its plane a ball stands on its face. It is more than AHEAD, by which a
-# ball may be put on the triangle it comes to, and too little to count: 1e-12 m of distance.
-FLUSH = 2e-7
+FLUSH = 2.0 * ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
 NARROW = 1e-9  # m: a triangle that is no wider has no plane that could be trusted
 FACE, CORNER = -1, 3  # where a place on a triangle is, if not on side 0, 1 or 2
 
