@@ -86,7 +86,7 @@ def course_file(name_or_path):
 
 
 def digest(raw, sources, opened):
-    """SHA-256 over the bytes of the course file, the materials and the meshes, in the order of their names."""
+    """SHA-256 over the bytes of the course file, the materials and the meshes, in order of names."""
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())

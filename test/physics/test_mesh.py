@@ -153,9 +153,9 @@ def distance(corners, point):
     u, v = np.linalg.lstsq(plane, point - a, rcond=None)[0]
     if u >= 0 and v >= 0 and u + v <= 1:
         return np.linalg.norm(point - a - plane @ (u, v))
-    ends = zip(corners, np.roll(corners, -1, 0))
-    return min(np.linalg.norm(point - p - np.clip((point - p) @ (q - p) / ((q - p) @ (q - p)), 0, 1) * (q - p))
-               for p, q in ends)
+    sides = [(p, q - p) for p, q in zip(corners, np.roll(corners, -1, 0))]
+    return min(np.linalg.norm(point - p - np.clip((point - p) @ side / (side @ side), 0, 1) * side)
+               for p, side in sides)
 
 
 @pytest.mark.parametrize('slope', [1e-6, 1e-3, 0.05, 0.6])
