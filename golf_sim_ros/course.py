@@ -3,14 +3,19 @@
 from hashlib import sha256
 import os
 from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
 
 from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
 from .materials import materials, shipped
+from .mesh_file import outward, read_mesh
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
+from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
 from .physics.ground.solid import Cylinder, Sphere
@@ -20,7 +25,7 @@ from .yaml_file import read_yaml
 __all__ = ['CourseError', 'load_course', 'shipped_courses']
 
 FORMAT = 1
-SHAPES_TO_COME = ('heightmap', 'mesh')
+SHAPES_TO_COME = ('heightmap',)
 
 PROFILES = {
     'log': record(LogProfile, {'roughness': number(1e-6, 10)}),
@@ -54,11 +59,14 @@ def load_course(name_or_path):
     path = course_file(name_or_path)
     raw, content = read_yaml(path)
     base, sources = shipped()
+    opened = {}
     try:
-        course = course_of(content, base)
+        course = course_of(content, base, path.parent, opened)
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
-    return course._replace(name=course.name or path.stem, path=str(path), digest=digest(raw, sources))
+    return course._replace(name=course.name or path.stem, path=str(path),
+                           digest=digest(raw, sources, opened),
+                           notes=tuple(note for file in opened.values() for note in file.notes))
 
 
 def shipped_courses():
@@ -78,16 +86,21 @@ def course_file(name_or_path):
     return path
 
 
-def digest(raw, sources):
-    """SHA-256 over the course file's bytes and those of the materials, in the order of their names."""
+def digest(raw, sources, opened):
+    """SHA-256 over the bytes of the course file, the materials and the meshes, in order of names."""
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())
+    for name in sorted(opened):
+        total.update(name.encode() + b'\0' + opened[name].digest)
     return total.hexdigest()
 
 
-def course_of(content, base):
-    """`Course` of a file's `content`; `base` holds the entries of the shipped materials."""
+def course_of(content, base, folder, opened):
+    """`Course` of a file's `content`; `base` holds the entries of the shipped materials.
+
+    Meshes are looked for from `folder` on, and noted in `opened` by the names that the file gives them.
+    """
     known = materials(mapping(content, '').get('materials', {}), base)
     read = fields({
         'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
@@ -95,7 +108,7 @@ def course_of(content, base):
         'ball': BALL, 'materials': mapping, 'wind_field': to_come, 'water': to_come,
         'zones': list_of(zone_of(known), 'a list of zones'),
         'obstacles': list_of(obstacle_of(known), 'a list of obstacles'),
-        'ground': list_of(shape_of(known), 'a list of one or more shapes', 1),
+        'ground': list_of(shape_of(known, folder, opened), 'a list of one or more shapes', 1),
     }, needed=('format', 'ground'))
     found = read(content, '')
     course = Course(cup=known['cup'], stick=known['flagstick'],
@@ -129,8 +142,40 @@ def format_number(value, key):
     return value
 
 
-def shape_of(known):
-    """Checker of an entry of ``ground``; `known` holds the materials by name."""
+class MeshFile(NamedTuple):
+    """A mesh file as read: triangles, what was put right in it, SHA-256 of its bytes."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    notes: tuple
+    digest: bytes
+
+
+def mesh_of(known, folder, opened):
+    """Checker of a mesh; see `course_of`."""
+    read = fields({'file': text, 'material': one_of(known), 'one_sided': flag}, ('file', 'material'))
+
+    def check(value, key):
+        entry = read(value, key)
+        name, one_sided = entry['file'], entry.get('one_sided', False)
+        path = folder / Path(name).expanduser()
+        try:
+            if name not in opened:
+                vertices, faces, notes = read_mesh(path)
+                opened[name] = MeshFile(vertices, faces, tuple(notes), sha256(path.read_bytes()).digest())
+        except CourseError as error:
+            raise CourseError(f'{key}.file {error}') from None
+        file = opened[name]
+        faces = file.faces
+        if one_sided:
+            faces, notes = outward(file.vertices, faces, path.name)
+            opened[name] = file._replace(notes=tuple(dict.fromkeys((*file.notes, *notes))))
+        return Mesh(file.vertices, faces, entry['material'], one_sided)
+    return check
+
+
+def shape_of(known, folder, opened):
+    """Checker of an entry of ``ground``; `known` holds the materials by name. See `course_of`."""
     cuts = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
     common = {'normal': direction, 'material': one_of(known), 'cut': cuts}
     size = number(1e-3)
@@ -139,6 +184,7 @@ def shape_of(known):
         'patch': record(Patch, {**common, 'center': vector(3), 'heading': number(), 'length': size,
                                 'width': size, 'one_sided': flag},
                         ('center', 'length', 'width', 'material')),
+        'mesh': mesh_of(known, folder, opened),
     }
 
     def check(value, key):
@@ -147,7 +193,7 @@ def shape_of(known):
             raise CourseError(f'{key}.shape {kind!r} is not yet supported; '
                               f'supported: {", ".join(sorted(shapes))}')
         shape = tagged('shape', shapes)(value, key)
-        if shape.cut and abs(shape.normal[2]) < 1e-3:
+        if kind != 'mesh' and shape.cut and abs(shape.normal[2]) < 1e-3:
             raise refused(f'{key}.cut', value['cut'], 'left out: seen from above, this shape is a line')
         return shape
     return check

@@ -10,6 +10,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 from .physics import ground_height
 from .physics.ground.cup import DEPTH, RADIUS
 from .physics.ground.flat import frame
+from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
 from .physics.ground.solid import FLAGSTICK_HEIGHT, FLAGSTICK_RADIUS, Sphere
@@ -66,6 +67,11 @@ def _patch(shape: Patch, course, number):
     return lifted(shape.center, shape.normal, outline, covered(shape, course, number))
 
 
+@surface.register
+def _mesh(shape: Mesh, course, number):
+    return shape.vertices[shape.faces]
+
+
 def rectangle(patch):
     """Four corners of `patch`."""
     _, along, across = frame(patch.normal, patch.heading)
@@ -105,10 +111,17 @@ def outskirts(course):
     """Corners of a rectangle around all that lies on `course`, `MARGIN` wide."""
     places = [course.tee, *([course.hole] if course.hole else []), *(course.bounds or ())]
     for shape in course.ground:
-        corners = rectangle(shape) if isinstance(shape, Patch) else sum(shape.cut, ())
-        places += [tuple(corner[:2]) for corner in corners]
+        places += [tuple(corner[:2]) for corner in extent(shape)]
     low, high = np.min(places, 0) - MARGIN, np.max(places, 0) + MARGIN
     return (low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])
+
+
+def extent(shape):
+    """Points around what is finite of `shape`."""
+    if isinstance(shape, Mesh):
+        used = shape.vertices[shape.faces].reshape(-1, 3)
+        return used.min(0), used.max(0)
+    return rectangle(shape) if isinstance(shape, Patch) else sum(shape.cut, ())
 
 
 def tee(course):

@@ -91,6 +91,8 @@ class SimNode(Node):
         """Tell in the log what is played, what is simulated, and how to strike."""
         log, world = self.get_logger(), self.world
         log.info(f'course: {world.course.name} ({world.course.path})')
+        for note in world.course.notes:
+            log.info(note)
         log.info(f'simulated: {", ".join(world.effects_on)}; accuracy {world.accuracy}')
         for name, reason in world.effects_off.items():
             log.info(f'not simulated: {name}: {reason}')

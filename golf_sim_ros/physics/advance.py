@@ -85,7 +85,8 @@ def resolve(model, balls, i, crowd, log):
     elif is_caught(ball):
         hold(model.land, ball, now)
     elif ball['phase'] != FLIGHT:
-        _, normal = surface.nearest(model.land.ground, ball['support'], vector(ball['position']))
+        ahead = unit(vector(ball['velocity']), ZERO)
+        _, normal = surface.under(model.land.ground, ball['support'], vector(ball['position']), ahead)
         put(ball['normal'], normal)
         if ending == SLIP_STOPS:
             stop_slip(model, ball)

@@ -50,6 +50,8 @@ class Course(NamedTuple):
     ball : Ball
     name, path, digest : str
         What a person calls it; where it was read; a hash of all that was read.
+    notes : tuple of str
+        What was put right in it when it was read: a line each.
     """
 
     ground: tuple
@@ -68,3 +70,4 @@ class Course(NamedTuple):
     name: str = ''
     path: str = ''
     digest: str = ''
+    notes: tuple = ()

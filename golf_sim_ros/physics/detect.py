@@ -31,7 +31,7 @@ TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 NEVER = 1e300
 MOST_STEPS = 200
 CROWD = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
-LEAST_STRETCH = 1e-4  # s
+SHORT = 4.0  # radii: a stretch with a box no longer than this is not worth halving
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, CAUGHT = range(5)
 
 
@@ -141,7 +141,7 @@ def first_contact(ground, ball, radius, until, on):
     while begin < until:
         end = min(begin + stretch, until)
         low, high = box(ball, begin, end, radius)
-        if end - begin > LEAST_STRETCH and is_crowded(ground, low, high):
+        if is_long(low, high, SHORT * radius) and is_crowded(ground, low, high):
             stretch = 0.5 * (end - begin)
             continue
         best, who, hit = first_in_box(ground, ball, radius, begin, end, low, high, on)
@@ -168,8 +168,14 @@ def box(ball, begin, end, radius):
 
 
 @kernel
+def is_long(low, high, size):
+    """Whether the box from `low` to `high` is longer than `size` in any direction."""
+    return high[0] - low[0] > size or high[1] - low[1] > size or high[2] - low[2] > size
+
+
+@kernel
 def is_crowded(ground, low, high):
-    """Whether many parts have a point in the box, which is long."""
+    """Whether many parts have a point in the box."""
     part = NO_PART
     for _ in range(CROWD):
         part = surface.next_part(ground, part + 1, low, high)

@@ -158,7 +158,7 @@ def cross_border(land, ball, now):
         ball['phase'] = FLIGHT
         ball['step'] = 0.0
         return
-    distance, normal = surface.nearest(land.ground, part, vector(ball['position']))
+    distance, normal = surface.under(land.ground, part, vector(ball['position']), ahead)
     put(ball['position'], along(vector(ball['position']), land.ball.radius - distance, normal))
     stand_on(land, ball, part, normal)
     settle(land, ball, now)

@@ -14,7 +14,7 @@ from .integrators import step
 from .motion import STILL
 from .pile import next_instant
 from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
-from .vector import ZERO, along, cross, dot, length, put, scale, vector
+from .vector import ZERO, along, cross, dot, length, put, scale, unit, vector
 
 LONGEST_SHOT = 300.0  # s
 
@@ -43,14 +43,17 @@ def lay_next(model, ball, now):
     elif is_caught(ball):
         on = CAUGHT
         until = min(until, caught_step(ball))
+    # Borders first: on a mesh the next one is near, and contacts beyond it need not be looked for.
+    crosses = False
+    if on == ON_FLAT or on == ON_CURVE:
+        until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
+    border = until
     until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
     if hit:
         ball['ending'] = HIT
         ball['target'] = part
-    if on == ON_FLAT or on == ON_CURVE:
-        until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
-        if crosses:
-            ball['ending'] = BORDER
+    elif crosses and until == border:
+        ball['ending'] = BORDER
     if until < ball['span'] and ball['ending'] != HIT and ball['ending'] != BORDER:
         ball['ending'] = STEP
     ball['end'] = now + until
@@ -69,7 +72,8 @@ def lay_contact(model, ball, now):
         cross_border(land, ball, now)
         if not moves(ball['phase']) or ball['phase'] == FLIGHT:
             return IN_THE_AIR
-    _, normal = surface.nearest(land.ground, ball['support'], vector(ball['position']))
+    ahead = unit(vector(ball['velocity']), ZERO)
+    _, normal = surface.under(land.ground, ball['support'], vector(ball['position']), ahead)
     put(ball['normal'], normal)
     if goes_on(land, ball):
         flat_piece(land, ball, now)

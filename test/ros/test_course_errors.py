@@ -14,8 +14,8 @@ COURSES = {
     'no ground under the tee': (
         'format: 1\ntee: [9, 0]\nground: [{shape: patch, center: [0, 0, 0], length: 2, width: 2,'
         ' material: green}]', ['tee', '[9.0, 0.0]', 'ground']),
-    'shape to come': ('format: 1\nground: [{shape: mesh, file: a.stl}]',
-                      ['ground[0].shape', 'mesh', 'plane']),
+    'shape to come': ('format: 1\nground: [{shape: heightmap, heights: a.npy}]',
+                      ['ground[0].shape', 'heightmap', 'plane']),
     'not YAML': ('format: 1\nground: [', []),
     'missing key': ('ground: ' + GROUND, ["'format'"]),
 }

@@ -251,6 +251,19 @@ def touched(ground, point, radius, ahead):
     return best, best_normal
 
 
+@shared
+def under(ground, part, point, ahead):
+    """`nearest`, of `part` under a ball at `point` that heads for `ahead`, a unit vector or zero.
+
+    On a border a flat part that goes on ahead counts as flat: a corner that is passed by is no edge.
+    """
+    next_point = along(point, LOOK_AHEAD, ahead)
+    if flat_under(ground, part, next_point):
+        distance, normal = nearest(ground, part, next_point)
+        return distance - LOOK_AHEAD * dot(ahead, normal), normal
+    return nearest(ground, part, point)
+
+
 @kernel
 def depth(ground, point, radius):
     """How deep [m] a ball at `point` lies in the ground; 0 where it is clear."""
