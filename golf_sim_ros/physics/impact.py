@@ -3,7 +3,7 @@
 from . import at_once
 from ._compile import kernel, shared
 from .caught import STALL, hold, is_caught, presses
-from .contact import material_number, material_of, settle, stand_on
+from .contact import heading, material_number, material_of, settle, stand_on
 from .effects import felt_normal, pull
 from .ground import surface
 from .impulse import Bond, impulse, take
@@ -133,10 +133,7 @@ def settle_speed(land, ball):
 @shared
 def cross_border(land, ball, now):
     """Find out what the ball is on past a border in plan. Writes phase and contact."""
-    velocity = vector(ball['velocity'])
-    speed = length(velocity)
-    ahead = scale(1.0 / speed, velocity) if speed > 0.0 else ZERO
-    part, normal = surface.touched(land.ground, vector(ball['position']), land.ball.radius, ahead)
+    part, normal = surface.touched(land.ground, vector(ball['position']), land.ball.radius, heading(land, ball))
     if part < 0:
         ball['phase'] = FLIGHT
         ball['step'] = 0.0

@@ -6,14 +6,14 @@ from . import path
 from ._compile import borrowed, entry, kernel, shared
 from .bent import bent_piece
 from .caught import caught_step, is_caught
-from .contact import flat_piece, material_number, settle, stand_on
+from .contact import flat_piece, heading, material_number, settle, stand_on
 from .detect import CAUGHT, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_border, first_contact
 from .ground import surface
 from .impact import cross_border
 from .integrators import step
 from .motion import STILL
 from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
-from .vector import ZERO, along, cross, dot, length, put, scale, vector
+from .vector import ZERO, along, cross, dot, put, scale, vector
 
 LONGEST_SHOT = 300.0  # s
 
@@ -76,10 +76,7 @@ def lay_contact(model, ball, now):
 @kernel
 def goes_on(land, ball):
     """Whether flat ground goes on under the ball right where it is heading."""
-    speed = length(vector(ball['velocity']))
-    ahead = vector(ball['position'])
-    if speed > 0.0:
-        ahead = along(ahead, surface.LOOK_AHEAD / speed, vector(ball['velocity']))
+    ahead = along(vector(ball['position']), surface.LOOK_AHEAD, heading(land, ball))
     return (surface.flat_under(land.ground, ball['support'], ahead)
             and surface.touchable(land.ground, ball['support'], ahead))
 
