@@ -5,6 +5,7 @@ from .air import Air, standard_atmosphere
 from .course import Ball, Course
 from .effects import EFFECTS, register_effect
 from .effects.wind import LogProfile, PowerProfile, UniformProfile
+from .ground.heightmap import Heightmap
 from .ground.patch import Patch
 from .ground.plane import Plane
 from .integrators import METHODS
@@ -15,7 +16,7 @@ from .state import Phase, Shot
 from .world import BallState, Rejected, World
 
 __all__ = [
-    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'EFFECTS', 'LogProfile',
+    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'EFFECTS', 'Heightmap', 'LogProfile',
     'METHODS', 'Material', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected',
     'Restitution', 'Result', 'Shot', 'UniformProfile', 'World', 'ground_height',
     'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
