@@ -69,7 +69,7 @@ def lay_contact(model, ball, now):
         flat_piece(land, ball, now)
         return ON_FLAT
     ball['material'] = material_number(land, ball, ball['support'], normal)
-    bent_piece(model, ball)
+    bent_piece(model, ball, now)
     return ON_CURVE if surface.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
 
 
