@@ -7,10 +7,12 @@ from pathlib import Path
 from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
+from .height_file import heights_in
 from .materials import materials, shipped
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
+from .physics.ground.heightmap import Heightmap
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
 from .share import share
@@ -19,7 +21,7 @@ from .yaml_file import read_yaml
 __all__ = ['CourseError', 'load_course', 'shipped_courses']
 
 FORMAT = 1
-SHAPES_TO_COME = ('heightmap', 'mesh')
+SHAPES_TO_COME = ('mesh',)
 
 PROFILES = {
     'log': record(LogProfile, {'roughness': number(1e-6, 10)}),
@@ -54,7 +56,7 @@ def load_course(name_or_path):
     raw, content = read_yaml(path)
     base, sources = shipped()
     try:
-        course = course_of(content, base)
+        course = course_of(content, base, path.parent, sources)
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
     return course._replace(name=course.name or path.stem, path=str(path), digest=digest(raw, sources))
@@ -78,22 +80,25 @@ def course_file(name_or_path):
 
 
 def digest(raw, sources):
-    """SHA-256 over the course file's bytes and those of the materials, in the order of their names."""
+    """SHA-256 over the course file's bytes and those of all that it calls for, in the order of their names."""
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())
     return total.hexdigest()
 
 
-def course_of(content, base):
-    """`Course` of a file's `content`; `base` holds the entries of the shipped materials."""
+def course_of(content, base, folder, sources):
+    """`Course` of a file's `content`; `base` holds the entries of the shipped materials.
+
+    What the file calls for is looked for in `folder`; its bytes are put into `sources`.
+    """
     known = materials(mapping(content, '').get('materials', {}), base)
     read = fields({
         'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
         'bounds': polygon, 'air': air, 'wind_profile': tagged('law', PROFILES), 'effects': effects,
         'ball': BALL, 'materials': mapping, 'wind_field': to_come, 'zones': to_come, 'water': to_come,
         'obstacles': to_come,
-        'ground': list_of(shape_of(known), 'a list of one or more shapes', 1),
+        'ground': list_of(shape_of(known, heights_in(folder, sources)), 'a list of one or more shapes', 1),
     }, needed=('format', 'ground'))
     found = read(content, '')
     course = Course(**{name: value for name, value in found.items() if name in Course._fields})
@@ -116,8 +121,8 @@ def format_number(value, key):
     return value
 
 
-def shape_of(known):
-    """Checker of an entry of ``ground``; `known` holds the materials by name."""
+def shape_of(known, heights):
+    """Checker of an entry of ``ground``; `known` holds the materials by name, `heights` reads a file of them."""
     cuts = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
     common = {'normal': direction, 'material': one_of(known), 'cut': cuts}
     size = number(1e-3)
@@ -126,6 +131,9 @@ def shape_of(known):
         'patch': record(Patch, {**common, 'center': vector(3), 'heading': number(), 'length': size,
                                 'width': size, 'one_sided': flag},
                         ('center', 'length', 'width', 'material')),
+        'heightmap': record(Heightmap, {'heights': heights, 'origin': vector(2), 'spacing': size,
+                                        'material': one_of(known)},
+                            ('heights', 'spacing', 'material')),
     }
 
     def check(value, key):
@@ -134,7 +142,7 @@ def shape_of(known):
             raise CourseError(f'{key}.shape {kind!r} is not yet supported; '
                               f'supported: {", ".join(sorted(shapes))}')
         shape = tagged('shape', shapes)(value, key)
-        if shape.cut and abs(shape.normal[2]) < 1e-3:
+        if getattr(shape, 'cut', ()) and abs(shape.normal[2]) < 1e-3:
             raise refused(f'{key}.cut', value['cut'], 'left out: seen from above, this shape is a line')
         return shape
     return check
@@ -162,3 +170,4 @@ def to_come(value, key):
     """What the schema knows and the physics does not yet; nothing of it is fine."""
     if value != []:
         raise CourseError(f'{key} {shown(value)} is not yet supported; leave it out')
+    return ()

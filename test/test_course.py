@@ -280,13 +280,11 @@ def test_a_wrong_material_is_named(complaint, section, said):
 
 @pytest.mark.parametrize('shape, said', [
     ('3', 'ground[0] 3 must be a mapping'),
-    ('{material: rough}', "ground[0]: key 'shape' is missing; it is one of: patch, plane"),
+    ('{material: rough}', "ground[0]: key 'shape' is missing; it is one of: heightmap, patch, plane"),
     ('{shape: plan, material: rough}',
-     "ground[0].shape 'plan' is unknown; known: patch, plane; did you mean 'plane'?"),
+     "ground[0].shape 'plan' is unknown; known: heightmap, patch, plane; did you mean 'plane'?"),
     ('{shape: mesh, file: a.stl, material: rough}',
-     "ground[0].shape 'mesh' is not yet supported; supported: patch, plane"),
-    ('{shape: heightmap, heights: a.npy, material: rough}',
-     "ground[0].shape 'heightmap' is not yet supported"),
+     "ground[0].shape 'mesh' is not yet supported; supported: heightmap, patch, plane"),
     ('{shape: plane, material: gras}', f"material 'gras' is unknown; known: {KNOWN}"),
     ('{shape: plane, material: 1}', 'ground[0].material 1 is unknown'),
     ('{shape: plane}', "ground[0]: key 'material' is missing; needed: material"),

@@ -73,7 +73,7 @@ def bent_piece(model, ball, now):
     ball['step'] = following
 
 
-@kernel
+@shared
 def share_on_ground(land, ball):
     """Share of the step, or more, over which its curve keeps to the ground as well as a path must.
 
@@ -88,7 +88,7 @@ def share_on_ground(land, ball):
     return max(0.9 * (land.limits.path / off) ** (1.0 / 6.0), 0.1)
 
 
-@kernel
+@shared
 def rest_of_motion(land, ball, force, grips, now):
     """Take away slip, or the way to a stop, that is too little to count. Writes motion and phase.
 
@@ -134,7 +134,7 @@ def time_to_wind_off(land, ball, press):
     return about / unwinding(material, press, r, land.ball.inertia)
 
 
-@kernel
+@shared
 def time_to_change(land, ball, force, press):
     """About how long [s] until slip ends, or until a braked ball stops."""
     v = vector(ball['velocity'])
@@ -149,7 +149,7 @@ def time_to_change(land, ball, force, press):
     return inf
 
 
-@kernel
+@shared
 def share_left(land, ball, v, slipping, press, pressing):
     """Share of the step that goes no further than to where the equations change, or 1."""
     if pressing < -LIFTS * press:
@@ -162,7 +162,7 @@ def share_left(land, ball, v, slipping, press, pressing):
     return 0.5 if turned else 1.0
 
 
-@kernel
+@shared
 def put_on_ground(land, ball):
     """Put the end of the piece on the ground, moving along it. Writes the curve; returns the press there."""
     r = land.ball.radius

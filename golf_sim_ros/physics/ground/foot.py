@@ -19,7 +19,7 @@ def held(x, low, high, pull):
     return x <= low and pull >= 0.0 or x >= high and pull <= 0.0
 
 
-@kernel
+@shared
 def newton(a, b, c, gx, gy, fixed_x, fixed_y):
     """Step from slopes `gx`, `gy` with second derivatives `a`, `b`, `c`; a fixed coordinate stays."""
     if fixed_x and fixed_y:
@@ -153,7 +153,7 @@ def foot(table, grid, box, bend, point):
     return best_x, best_y, best_at
 
 
-@kernel
+@shared
 def sample(table, grid, point, x, y):
     """Half the squared distance of `point` from the place at `x`, `y`."""
     return half_square(point, x, y, bicubic(table, grid, x, y)[0])

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from .._compile import kernel, shared
 from ..material import Material
 from ..vector import ZERO, dot, length, scale, sub, tangential, unit
 from . import laws
@@ -106,7 +106,7 @@ def _parts(kind):
     return kind.grids[n - 1]['number'] + 1 if n > 0 else 0
 
 
-@kernel
+@shared
 def grid_of(kind, part):
     """Number of the map that `part` belongs to."""
     for i in range(len(kind.grids)):
@@ -118,7 +118,7 @@ def grid_of(kind, part):
     return 0
 
 
-@kernel
+@shared
 def wall_side(grid, part):
     """Cell of a wall, and its side: 0 at the least y, 1 at the greatest, 2 and 3 those of x."""
     k = part - grid['first_wall']
@@ -140,7 +140,7 @@ def wall_number(grid, side, k):
     return grid['first_wall'] + before + k
 
 
-@kernel
+@shared
 def bounds_of(kind, part):
     """Row of the bounds of the cell that is `part`, or that the wall `part` is a side of."""
     if part < len(kind.cells):
@@ -150,7 +150,7 @@ def bounds_of(kind, part):
     return grid['first_cell'] + cell
 
 
-@kernel
+@shared
 def rectangle(kind, grid, part):
     """Rectangle in plan [m] of `part` from the map's origin: of a wall, it has no width."""
     size = grid['spacing']
@@ -167,7 +167,7 @@ def rectangle(kind, grid, part):
     return x0, y0, (column if side == 2 else column + 1) * size, (row if side == 0 else row + 1) * size
 
 
-@kernel
+@shared
 def place_under(kind, grid, part, point):
     """Nearest place of the surface of `part`, on a wall its upper edge, and `bicubic` there."""
     bend = 0.0
@@ -186,7 +186,7 @@ def from_origin(grid, point):
     return point[0] - grid['origin'][0], point[1] - grid['origin'][1], point[2]
 
 
-@kernel
+@shared
 def beside_wall(kind, grid, part, local):
     """Whether a point is nearest to a wall's upright face, and x, y of the place there."""
     x0, y0, x1, y1 = rectangle(kind, grid, part)
@@ -220,7 +220,7 @@ def _nearest(kind, part, point):
     return sign * length(offset), unit(scale(sign, offset), upright)
 
 
-@kernel
+@shared
 def is_below(kind, grid, part, local, offset, place, at):
     """Whether a point is under the surface of `part`, a cell or a map, whose nearest `place` is `offset` away."""
     x0, y0, x1, y1 = rectangle(kind, grid, part)
@@ -230,7 +230,7 @@ def is_below(kind, grid, part, local, offset, place, at):
             and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0])
 
 
-@kernel
+@shared
 def outward(kind, grid, part):
     """Unit vector out of a wall."""
     _, side = wall_side(grid, part)
@@ -371,7 +371,7 @@ def columns_in(grid, axis, low, high):
     return int(min(max(first, 0.0), count - 1.0)), int(max(min(last, count - 1.0), 0.0))
 
 
-@kernel
+@shared
 def next_cell(kind, grid, part, low, high):
     """First cell of a map, from `part` on, that reaches up into the box, or -1."""
     left, right = columns_in(grid, 0, low, high)
@@ -385,7 +385,7 @@ def next_cell(kind, grid, part, low, high):
     return -1
 
 
-@kernel
+@shared
 def next_wall(kind, grid, part, low, high):
     """First wall of a map, from `part` on, that reaches up into the box, or -1."""
     for side in range(4):
