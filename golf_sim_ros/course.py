@@ -80,7 +80,7 @@ def course_file(name_or_path):
 
 
 def digest(raw, sources):
-    """SHA-256 over the course file's bytes and those of all that it calls for, in the order of their names."""
+    """SHA-256 over the course file's bytes and those of all it calls for, in the order of their names."""
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())
@@ -122,7 +122,7 @@ def format_number(value, key):
 
 
 def shape_of(known, heights):
-    """Checker of an entry of ``ground``; `known` holds the materials by name, `heights` reads a file of them."""
+    """Checker of an entry of ``ground``; `known`: materials by name; `heights` reads a file."""
     cuts = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
     common = {'normal': direction, 'material': one_of(known), 'cut': cuts}
     size = number(1e-3)

@@ -195,7 +195,8 @@ if numba:
     @lower_getattr_generic(_Reference)
     def _get_field(context, builder, reference, pointer, name):
         index = reference.record.fields.index(name)
-        return _load(context, builder, reference.record.types[index], cgutils.gep_inbounds(builder, pointer, 0, index))
+        field = cgutils.gep_inbounds(builder, pointer, 0, index)
+        return _load(context, builder, reference.record.types[index], field)
 
     def _load(context, builder, field, pointer):
         if isinstance(field, types.BaseNamedTuple):

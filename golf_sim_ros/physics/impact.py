@@ -133,7 +133,8 @@ def settle_speed(land, ball):
 @shared
 def cross_border(land, ball, now):
     """Find out what the ball is on past a border in plan. Writes phase and contact."""
-    part, normal = surface.touched(land.ground, vector(ball['position']), land.ball.radius, heading(land, ball))
+    ahead = heading(land, ball)
+    part, normal = surface.touched(land.ground, vector(ball['position']), land.ball.radius, ahead)
     if part < 0:
         ball['phase'] = FLIGHT
         ball['step'] = 0.0

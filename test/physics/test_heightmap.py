@@ -197,7 +197,8 @@ def test_heights_that_are_none_are_refused_in_one_line(tmp_path, heights, said):
 
 
 @pytest.mark.parametrize('content, said', [
-    (b'heights', 'is no .npy file'), (b'\x93NUMPY\x01\x00', 'no .npy file that can be read'), (None, 'cannot be read')])
+    (b'heights', 'is no .npy file'), (b'\x93NUMPY\x01\x00', 'no .npy file that can be read'),
+    (None, 'cannot be read')])
 def test_a_broken_file_of_heights_is_refused_in_one_line(tmp_path, content, said):
     path = saved(tmp_path, np.zeros((2, 2)))
     (tmp_path / 'green.npy').unlink()

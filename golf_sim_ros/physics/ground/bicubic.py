@@ -20,7 +20,7 @@ GRID = np.dtype([
 def slopes(values):
     """Slopes, per grid step, of the natural cubic splines through the columns of `values`.
 
-    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), with 2 s[0] + s[1] = 3 (y[1] - y[0]) at the ends.
+    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends 2 s[0] + s[1] = 3 (y[1] - y[0]).
     """
     n = len(values)
     rise = np.diff(values, axis=0)
@@ -43,7 +43,7 @@ def nodes(heights):
 
 
 def bounds(at_nodes, spacing):
-    """Bounds over every cell: greatest height, hollows' curvature [1/m] and any curvature: (ny - 1, nx - 1, 4).
+    """Bounds on height [m] and curvature [1/m] over every cell: (ny - 1, nx - 1, 4).
 
     In order: least height, greatest height, greatest upward curvature (0 where there is none), greatest
     curvature of either sign. They hold for sure: they are those of Bernstein's coefficients.
@@ -80,7 +80,8 @@ def hermite(start, slope, end, end_slope, t):
     rise = end - start
     c2 = 3.0 * rise - 2.0 * slope - end_slope
     c3 = slope + end_slope - 2.0 * rise
-    return start + t * (slope + t * (c2 + t * c3)), slope + t * (2.0 * c2 + 3.0 * t * c3), 2.0 * c2 + 6.0 * t * c3
+    return (start + t * (slope + t * (c2 + t * c3)), slope + t * (2.0 * c2 + 3.0 * t * c3),
+            2.0 * c2 + 6.0 * t * c3)
 
 
 @kernel

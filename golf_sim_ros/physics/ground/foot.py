@@ -77,7 +77,8 @@ def descend(table, grid, box, x, y, point):
         fixed_x = held(x, x0, x1, gx)
         fixed_y = held(y, y0, y1, gy)
         a, b, c = curvatures(point, at)
-        if not ((fixed_x or a > 0.0) and (fixed_y or c > 0.0) and (fixed_x or fixed_y or a * c - b * b > 0.01 * a * c)):
+        sure = (fixed_x or a > 0.0) and (fixed_y or c > 0.0)
+        if not sure or not (fixed_x or fixed_y or a * c - b * b > 0.01 * a * c):
             a = 1.0 + at[1] * at[1]  # no minimum is near: downhill as if the surface were flat
             b = at[1] * at[2]
             c = 1.0 + at[2] * at[2]

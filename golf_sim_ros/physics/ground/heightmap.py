@@ -45,8 +45,8 @@ class Heightmap(NamedTuple):
 class Maps(NamedTuple):
     """All height maps of a course.
 
-    ``grids``: a row a map; ``nodes``: height and derivatives by x, y and both, per grid step; ``cells``: least
-    and greatest height, bounds on the curvature of hollows and on any curvature [1/m].
+    ``grids``: a row a map; ``nodes``: height and derivatives by x, y and both, per grid step; ``cells``:
+    least and greatest height, bounds on the curvature of hollows and on any curvature [1/m].
     """
 
     grids: np.ndarray
@@ -64,8 +64,8 @@ def build(shapes, material_number):
     for shape, (ny, nx) in zip(shapes, counts):
         table, limits = spline(shape)
         hollow = limits[..., 2].max()
-        rows.append((shape.origin, shape.spacing, nx, ny, node, cell, wall, number, material_number[shape.material],
-                     hollow < WIDE, limits[..., 1].max(), hollow))
+        rows.append((shape.origin, shape.spacing, nx, ny, node, cell, wall, number,
+                     material_number[shape.material], hollow < WIDE, limits[..., 1].max(), hollow))
         tables.append(table.reshape(-1, 4))
         cells.append(limits.reshape(-1, 4))
         node, cell, wall, number = node + table[..., 0].size, cell + nx * ny, wall + 2 * (nx + ny), number + 1
@@ -222,7 +222,7 @@ def _nearest(kind, part, point):
 
 @shared
 def is_below(kind, grid, part, local, offset, place, at):
-    """Whether a point is under the surface of `part`, a cell or a map, whose nearest `place` is `offset` away."""
+    """Whether a point is under `part`, a cell or a map, whose nearest `place` is `offset` away."""
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < place[0] < x1 and y0 < place[1] < y1:
         return dot(offset, (-at[1], -at[2], 1.0)) < 0.0
