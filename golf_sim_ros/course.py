@@ -10,11 +10,13 @@ import numpy as np
 from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
+from .height_file import heights_in
 from .materials import materials, shipped
 from .mesh_file import outward, read_mesh
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
+from .physics.ground.heightmap import Heightmap
 from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
@@ -25,7 +27,6 @@ from .yaml_file import read_yaml
 __all__ = ['CourseError', 'load_course', 'shipped_courses']
 
 FORMAT = 1
-SHAPES_TO_COME = ('heightmap',)
 
 PROFILES = {
     'log': record(LogProfile, {'roughness': number(1e-6, 10)}),
@@ -61,7 +62,7 @@ def load_course(name_or_path):
     base, sources = shipped()
     opened = {}
     try:
-        course = course_of(content, base, path.parent, opened)
+        course = course_of(content, base, path.parent, sources, opened)
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
     return course._replace(name=course.name or path.stem, path=str(path),
@@ -87,7 +88,7 @@ def course_file(name_or_path):
 
 
 def digest(raw, sources, opened):
-    """SHA-256 over the bytes of the course file, the materials and the meshes, in order of names."""
+    """SHA-256 over the bytes of the course file and of all it calls for, in the order of their names."""
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())
@@ -96,19 +97,21 @@ def digest(raw, sources, opened):
     return total.hexdigest()
 
 
-def course_of(content, base, folder, opened):
+def course_of(content, base, folder, sources, opened):
     """`Course` of a file's `content`; `base` holds the entries of the shipped materials.
 
-    Meshes are looked for from `folder` on, and noted in `opened` by the names that the file gives them.
+    What the file calls for is looked for from `folder` on; bytes of height maps are put into `sources`,
+    meshes into `opened`, by the names that the file gives them.
     """
     known = materials(mapping(content, '').get('materials', {}), base)
+    shape = shape_of(known, heights_in(folder, sources), mesh_of(known, folder, opened))
     read = fields({
         'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
         'bounds': polygon, 'air': air, 'wind_profile': tagged('law', PROFILES), 'effects': effects,
         'ball': BALL, 'materials': mapping, 'wind_field': to_come, 'water': to_come,
         'zones': list_of(zone_of(known), 'a list of zones'),
         'obstacles': list_of(obstacle_of(known), 'a list of obstacles'),
-        'ground': list_of(shape_of(known, folder, opened), 'a list of one or more shapes', 1),
+        'ground': list_of(shape, 'a list of one or more shapes', 1),
     }, needed=('format', 'ground'))
     found = read(content, '')
     course = Course(cup=known['cup'], stick=known['flagstick'],
@@ -174,8 +177,8 @@ def mesh_of(known, folder, opened):
     return check
 
 
-def shape_of(known, folder, opened):
-    """Checker of an entry of ``ground``; `known` holds the materials by name. See `course_of`."""
+def shape_of(known, heights, mesh):
+    """Checker of an entry of ``ground``; `known`: materials by name; `heights`, `mesh` read files."""
     cuts = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
     common = {'normal': direction, 'material': one_of(known), 'cut': cuts}
     size = number(1e-3)
@@ -184,16 +187,15 @@ def shape_of(known, folder, opened):
         'patch': record(Patch, {**common, 'center': vector(3), 'heading': number(), 'length': size,
                                 'width': size, 'one_sided': flag},
                         ('center', 'length', 'width', 'material')),
-        'mesh': mesh_of(known, folder, opened),
+        'heightmap': record(Heightmap, {'heights': heights, 'origin': vector(2), 'spacing': size,
+                                        'material': one_of(known)},
+                            ('heights', 'spacing', 'material')),
+        'mesh': mesh,
     }
 
     def check(value, key):
-        kind = mapping(value, key).get('shape')
-        if kind in SHAPES_TO_COME:
-            raise CourseError(f'{key}.shape {kind!r} is not yet supported; '
-                              f'supported: {", ".join(sorted(shapes))}')
         shape = tagged('shape', shapes)(value, key)
-        if kind != 'mesh' and shape.cut and abs(shape.normal[2]) < 1e-3:
+        if getattr(shape, 'cut', ()) and abs(shape.normal[2]) < 1e-3:
             raise refused(f'{key}.cut', value['cut'], 'left out: seen from above, this shape is a line')
         return shape
     return check
@@ -242,3 +244,4 @@ def to_come(value, key):
     """What the schema knows and the physics does not yet; nothing of it is fine."""
     if value != []:
         raise CourseError(f'{key} {shown(value)} is not yet supported; leave it out')
+    return ()

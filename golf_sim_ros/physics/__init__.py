@@ -5,6 +5,7 @@ from .air import Air, standard_atmosphere
 from .course import Ball, Course
 from .effects import EFFECTS, register_effect
 from .effects.wind import LogProfile, PowerProfile, UniformProfile
+from .ground.heightmap import Heightmap
 from .ground.mesh import Mesh
 from .ground.patch import Patch
 from .ground.plane import Plane
@@ -17,8 +18,9 @@ from .state import Phase, Shot
 from .world import BallState, Rejected, World
 
 __all__ = [
-    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'LogProfile',
-    'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset',
-    'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile', 'World', 'check_hole', 'ground_height',
+    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'Heightmap',
+    'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile',
+    'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile', 'World', 'check_hole',
+    'ground_height',
     'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
     'standard_atmosphere']

@@ -3,46 +3,58 @@
 
 The integrator of flight steps the equations of contact as well; at a step's end the ball is put back on
 the ground, with a velocity along it and, where it rolls, the spin of rolling. A step ends early where
-the ground ceases to press, where slip ends and where the ball stops: there the equations change.
+the ground ceases to press. Friction jumps where slip ends and where the ball stops: steps come near as a
+geometric series, and what is left is taken at once when it no longer counts.
 """
 from math import inf
 
 from ._compile import kernel, shared
+from .contact import in_tail, settle
 from .ground import surface
 from .impulse import slip
 from .integrators import step
-from .motion import STILL, following_rates, material_under
-from .path import lay
-from .state import BALL_STOPS, FLIGHT, ROLL, SLIDE, SLIP_STOPS, STEP
-from .vector import along, cross, dot, length, put, scale, sub, vector
+from .motion import STILL, following_rates, material_under, unwinding
+from .path import lay, position
+from .state import FLIGHT, ROLL, SLIDE, moves
+from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
 
 MOST_TURN = 0.1  # rad of the normal in a step
 FIRST_STEP = 0.02  # s
-LEAST_STEP = 1e-7  # s
+LEAST_STEP = 1e-9  # s
 CORRECTIONS = 12  # of a step's length
 LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
+APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
+SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
+LEAST_SLIP = 1e-7  # m/s: more than a least step takes
 
 
 @shared
-def bent_piece(model, ball):
+def bent_piece(model, ball, now):
     """Lay a step along ground that is not flat; lift off where the press is gone. Writes the curve."""
     land = model.land
     place = vector(ball['position'])
-    v = vector(ball['velocity'])
     w = vector(ball['spin'])
-    force, _, press, needed = following_rates(land, ball, place, v, w)
+    force, _, press, needed = following_rates(land, ball, place, vector(ball['velocity']), w)
     if press <= 0.0:
         ball['phase'] = FLIGHT
         ball['step'] = 0.0
         return
-    if ball['phase'] == ROLL and needed > material_under(land, ball)['static_friction'] * press:
+    grips = needed <= material_under(land, ball)['static_friction'] * press
+    if ball['phase'] == ROLL and not grips:
         ball['phase'] = SLIDE
+    rest_of_motion(land, ball, force, grips, now)
+    if not moves(ball['phase']):
+        return
+    v = vector(ball['velocity'])
+    force, _, press, _ = following_rates(land, ball, place, v, vector(ball['spin']))
     turning = length(surface.turn(land.ground, ball['support'], place, v))
     h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
     h = min(h, MOST_TURN / max(turning, 1e-3))
-    h = max(min(h, time_to_change(land, ball, force, press)), LEAST_STEP)
-    normal = vector(ball['normal'])
-    slipping = slip(v, w, normal, land.ball.radius)
+    h = min(h, time_to_wind_off(land, ball, press))
+    h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
+    if in_tail(ball, now):
+        h = min(h, ball['tail_end'] - now)
+    slipping = slip(v, vector(ball['spin']), vector(ball['normal']), land.ball.radius)
     for _ in range(CORRECTIONS):
         ball['step'] = h
         step(model, ball)
@@ -50,14 +62,79 @@ def bent_piece(model, ball):
         h = ball['span']
         pressing = put_on_ground(land, ball)
         left = share_left(land, ball, v, slipping, press, pressing)
-        if left == 1.0 or h * left <= LEAST_STEP:
+        if left == 1.0:
+            left = share_on_ground(land, ball)
+            following = min(following, 2.0 * h * left)
+            if left >= 1.0:
+                break
+        if h * left <= LEAST_STEP:
             break
         h *= left
     ball['step'] = following
-    ball['ending'] = what_ends(land, ball, v, slipping)
+
+
+@shared
+def share_on_ground(land, ball):
+    """Share of the step, or more, over which its curve keeps to the ground as well as a path must.
+
+    The curve meets place, velocity and acceleration at both ends, so it errs by the step's sixth power.
+    """
+    off = 0.0
+    for i in range(1, 4):
+        distance, _ = surface.nearest(land.ground, ball['support'], position(ball, 0.25 * i * ball['span']))
+        off = max(off, abs(distance - land.ball.radius))
+    if off <= land.limits.path:
+        return max(1.0, 0.9 * (land.limits.path / max(off, 1e-2 * land.limits.path)) ** (1.0 / 6.0))
+    return max(0.9 * (land.limits.path / off) ** (1.0 / 6.0), 0.1)
+
+
+@shared
+def rest_of_motion(land, ball, force, grips, now):
+    """Take away slip, or the way to a stop, that is too little to count. Writes motion and phase.
+
+    Grip takes slip as an impulse; so nothing is gained.
+    """
+    v = vector(ball['velocity'])
+    normal = vector(ball['normal'])
+    r = land.ball.radius
+    k = land.ball.inertia
+    about = dot(vector(ball['spin']), normal)
+    if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(land):
+        put(ball['spin'], along(vector(ball['spin']), -about, normal))
+    if ball['phase'] == SLIDE:
+        u = slip(v, vector(ball['spin']), normal, r)
+        if grips and length(u) <= slip_limit(land):
+            push = scale(-k / (1.0 + k), u)
+            put(ball['velocity'], add(v, push))
+            put(ball['spin'], along(vector(ball['spin']), -1.0 / (k * r), cross(normal, push)))
+            ball['phase'] = ROLL
+        return
+    slowing = -dot(force, v)
+    if length(v) <= STILL or slowing <= 0.0 or material_under(land, ball)['rolling_resistance'] == 0.0:
+        return
+    if 0.5 * dot(v, v) * dot(v, v) <= land.limits.path * slowing * length(v):
+        put(ball['velocity'], ZERO)
+        settle(land, ball, now)
 
 
 @kernel
+def slip_limit(land):
+    """Slip [m/s] that is too little to count."""
+    return max(SLIP_COUNTS * land.limits.path, LEAST_SLIP)
+
+
+@kernel
+def time_to_wind_off(land, ball, press):
+    """Time [s] until pivot friction has taken the spin about the normal, of a ball that turns about it."""
+    r = land.ball.radius
+    material = material_under(land, ball)
+    about = abs(dot(vector(ball['spin']), vector(ball['normal'])))
+    if material['pivot_friction'] == 0.0 or about * r <= STILL:
+        return inf
+    return about / unwinding(material, press, r, land.ball.inertia)
+
+
+@shared
 def time_to_change(land, ball, force, press):
     """About how long [s] until slip ends, or until a braked ball stops."""
     v = vector(ball['velocity'])
@@ -72,41 +149,20 @@ def time_to_change(land, ball, force, press):
     return inf
 
 
-@kernel
+@shared
 def share_left(land, ball, v, slipping, press, pressing):
-    """Share of the step after which the equations change, or 1."""
+    """Share of the step that goes no further than to where the equations change, or 1."""
     if pressing < -LIFTS * press:
         return max(press / (press - pressing), 0.01)
     if ball['phase'] == SLIDE:
-        after = slip_at_end(land, ball)
-        before = length(slipping)
-        if before > STILL and dot(slipping, after) < 0.0 and length(after) > 1e-6 * before + STILL:
-            return before / (before + length(after))
-        return 1.0
-    after = end_velocity(ball)
-    if (material_under(land, ball)['rolling_resistance'] > 0.0 and length(v) > STILL and dot(v, after) < 0.0
-            and length(after) > 1e-6 * length(v) + STILL):
-        return length(v) / (length(v) + length(after))
-    return 1.0
+        turned = length(slipping) > STILL and dot(slipping, slip_at_end(land, ball)) < 0.0
+    else:
+        turned = (material_under(land, ball)['rolling_resistance'] > 0.0 and length(v) > STILL
+                  and dot(v, end_velocity(ball)) < 0.0)
+    return 0.5 if turned else 1.0
 
 
-@kernel
-def what_ends(land, ball, v, slipping):
-    """What is at the end of the step: STEP, SLIP_STOPS or BALL_STOPS."""
-    if ball['phase'] == SLIDE:
-        before = length(slipping)
-        after = slip_at_end(land, ball)
-        if before > STILL and (dot(slipping, after) <= 0.0 or length(after) <= 1e-6 * before):
-            return SLIP_STOPS
-        return STEP
-    if material_under(land, ball)['rolling_resistance'] > 0.0 and length(v) > STILL:
-        after = end_velocity(ball)
-        if dot(v, after) <= 0.0 or length(after) <= 1e-6 * length(v):
-            return BALL_STOPS
-    return STEP
-
-
-@kernel
+@shared
 def put_on_ground(land, ball):
     """Put the end of the piece on the ground, moving along it. Writes the curve; returns the press there."""
     r = land.ball.radius

@@ -15,7 +15,7 @@ from .impulse import slip
 from .motion import STILL, brake, material_under
 from .path import lay, position
 from .state import BALL_STOPS, REST, ROLL, SLIDE, SLIP_STOPS, STEP
-from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
+from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, unit, vector
 
 LONGEST = 10.0  # s of one piece
 
@@ -45,6 +45,20 @@ def material_of(land, ball, part, normal):
 def in_tail(ball, now):
     """Whether the ball's last, tiny bounces are still going on."""
     return ball['tail_end'] > now
+
+
+@kernel
+def heading(land, ball):
+    """Unit vector to where the ball moves, or, where it stands, to where friction and weight drive it."""
+    v = vector(ball['velocity'])
+    if length(v) > 0.0:
+        return unit(v, ZERO)
+    normal = vector(ball['normal'])
+    press, driven = surface.slope(pull(land.effects, vector(ball['position'])), normal)
+    if ball['phase'] == SLIDE:
+        sliding = unit(slip(v, vector(ball['spin']), normal, land.ball.radius), ZERO)
+        driven = along(driven, -material_under(land, ball)['dynamic_friction'] * press, sliding)
+    return unit(driven, ZERO)
 
 
 @shared

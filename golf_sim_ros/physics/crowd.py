@@ -133,7 +133,7 @@ def below(node, parent, first, count):
 
 @kernel
 def halve(order, balls, first, last, middle):
-    """Put balls `first` to `last` in order: at `middle` the low end and the high begin, on the longest axis."""
+    """Put balls `first` to `last` in order along their longest axis, as far as `middle` parts them."""
     axis = 0
     widest = -1.0
     for k in range(3):

@@ -4,7 +4,7 @@ from . import together
 from ._compile import kernel, shared
 from .bump import WORTH_TELLING, collide, scatter
 from .caught import STALL, hold, is_caught, presses
-from .contact import material_number, material_of, settle, stand_on
+from .contact import heading, material_number, material_of, settle, stand_on
 from .crowd import MEMBERS
 from .effects import felt_normal, pull
 from .ground import surface
@@ -150,9 +150,7 @@ def settle_speed(land, ball):
 @shared
 def cross_border(land, ball, now):
     """Find out what the ball is on past a border in plan. Writes phase and contact."""
-    velocity = vector(ball['velocity'])
-    speed = length(velocity)
-    ahead = scale(1.0 / speed, velocity) if speed > 0.0 else ZERO
+    ahead = heading(land, ball)
     part, normal = surface.touched(land.ground, vector(ball['position']), land.ball.radius, ahead)
     if part < 0:
         ball['phase'] = FLIGHT

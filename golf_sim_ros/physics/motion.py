@@ -5,7 +5,7 @@ from .effects import flight_rates, pull
 from .ground import surface
 from .impulse import slip
 from .state import FLIGHT, SLIDE
-from .vector import ZERO, add, along, cross, dot, length, scale, sub, unit
+from .vector import ZERO, add, along, cross, dot, length, scale, sub, unit, vector
 
 STILL = 1e-9  # m/s: slower than this is not moving
 
@@ -36,6 +36,25 @@ def brake(material, press, downhill, inertia):
     return min(material['rolling_resistance'] * press, max(grip, 0.0))
 
 
+@kernel
+def unwinding(material, press, radius, inertia):
+    """Rate [rad/s^2] at which pivot friction takes spin about the normal."""
+    return material['pivot_friction'] * press / (inertia * radius * radius)
+
+
+@kernel
+def pivoting(ball, material, press, drive, radius, inertia):
+    """What pivot friction takes from the spin about the normal: as the step begins, so it goes on.
+
+    It holds a ball that does not turn about the normal against the `drive` of a normal that turns.
+    """
+    most = unwinding(material, press, radius, inertia)
+    about = dot(vector(ball['spin']), vector(ball['normal']))
+    if abs(about) * radius > STILL:
+        return most if about > 0.0 else -most
+    return max(min(drive, most), -most)
+
+
 @shared
 def following_rates(land, ball, place, velocity, spin):
     """Acceleration, rate of spin, press, and grip needed, of a ball that follows ground which is not flat.
@@ -57,18 +76,22 @@ def following_rates(land, ball, place, velocity, spin):
     press = max(pressing, 0.0)
     about = dot(spin, normal)
     free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
+    tail = ball['tail_end'] > ball['begin']  # single impacts do not brake a rolling ball, nor does their sum
+    load = press * ball['tail_press'] if tail else press
+    resistance = 0.0 if tail else brake(material, press, downhill, k)
     if length(velocity) > STILL:
-        free = along(free, -brake(material, press, downhill, k) / length(velocity), velocity)
+        free = along(free, -resistance / length(velocity), velocity)
+    else:  # it sets off as it is driven, if at all
+        free = scale(max(1.0 - resistance / max(length(free), 1e-300), 0.0), free)
     friction = sub(free, downhill)
     needed = length(friction)
     if ball['phase'] == SLIDE:
         against = scale(-1.0, slip(velocity, spin, normal, r))
         if length(against) <= STILL:
             against = friction
-        friction = scale(material['dynamic_friction'] * press, unit(against, ZERO))
+        friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
     force = along(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
-    if material['pivot_friction'] > 0.0 and abs(about) * r > STILL:
-        winding = material['pivot_friction'] * press / (k * r * r)
-        torque = along(torque, -winding if about > 0.0 else winding, normal)
+    if material['pivot_friction'] > 0.0 and not tail:
+        torque = along(torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal)
     return force, torque, pressing, needed

@@ -6,7 +6,7 @@ from . import path
 from ._compile import borrowed, entry, kernel, shared
 from .bent import bent_piece
 from .caught import caught_step, is_caught
-from .contact import flat_piece, material_number, settle, stand_on
+from .contact import flat_piece, heading, material_number, settle, stand_on
 from .detect import CAUGHT, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_border, first_contact
 from .ground import surface
 from .impact import cross_border
@@ -14,7 +14,7 @@ from .integrators import step
 from .motion import STILL
 from .pile import next_instant
 from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
-from .vector import ZERO, along, cross, dot, length, put, scale, unit, vector
+from .vector import ZERO, along, cross, dot, put, scale, unit, vector
 
 LONGEST_SHOT = 300.0  # s
 
@@ -79,17 +79,14 @@ def lay_contact(model, ball, now):
         flat_piece(land, ball, now)
         return ON_FLAT
     ball['material'] = material_number(land, ball, ball['support'], normal)
-    bent_piece(model, ball)
+    bent_piece(model, ball, now)
     return ON_CURVE if surface.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
 
 
 @kernel
 def goes_on(land, ball):
     """Whether flat ground goes on under the ball right where it is heading."""
-    speed = length(vector(ball['velocity']))
-    ahead = vector(ball['position'])
-    if speed > 0.0:
-        ahead = along(ahead, surface.LOOK_AHEAD / speed, vector(ball['velocity']))
+    ahead = along(vector(ball['position']), surface.LOOK_AHEAD, heading(land, ball))
     return (surface.flat_under(land.ground, ball['support'], ahead)
             and surface.touchable(land.ground, ball['support'], ahead))
 

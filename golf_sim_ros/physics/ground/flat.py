@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .._compile import kernel
-from ..vector import along, dot, length, scale, sub, unit, vector
+from ..vector import ZERO, add, along, dot, length, scale, sub, tangential, unit, vector
 from . import laws
 from .patch import Patch
 from .plane import Plane
@@ -28,6 +28,7 @@ from .polygon import Polygons, inside, polygons, sides
 
 SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as equally high
 ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
+AHEAD = 2e-7  # m: a ball on a border turns as it will past it, or it would leave an edge too late
 
 FACE = np.dtype([
     ('center', 'f8', 3), ('normal', 'f8', 3), ('along', 'f8', 3), ('across', 'f8', 3),
@@ -173,6 +174,42 @@ def _nearest(kind, part, point):
     edge = kind.edges[part - len(kind.faces)]
     offset = offset_from_edge(edge, point)
     return length(offset), unit(offset, vector(edge['normal']))
+
+
+@laws.turn.register(Flats)
+def _turn(kind, part, point, velocity):
+    speed = length(velocity)
+    if speed == 0.0:
+        return ZERO
+    ahead = along(point, AHEAD / speed, velocity)
+    if part < len(kind.faces):
+        face = kind.faces[part]
+        if face['solid']:
+            return ZERO
+        offset, _ = offset_from_face(face, point)
+        d = sub(ahead, vector(face['center']))
+        rate = in_direction(velocity, vector(face['normal']))
+        if abs(dot(d, vector(face['along']))) > face['half_length']:
+            rate = add(rate, in_direction(velocity, vector(face['along'])))
+        if abs(dot(d, vector(face['across']))) > face['half_width']:
+            rate = add(rate, in_direction(velocity, vector(face['across'])))
+    else:
+        edge = kind.edges[part - len(kind.faces)]
+        offset = offset_from_edge(edge, point)
+        d = sub(ahead, vector(edge['start']))
+        rate = velocity
+        if 0.0 < dot(d, vector(edge['direction'])) < edge['length']:
+            rate = sub(rate, in_direction(velocity, vector(edge['direction'])))
+        if -edge['depth'] < dot(d, vector(edge['normal'])) < 0.0:
+            rate = sub(rate, in_direction(velocity, vector(edge['normal'])))
+    away = length(offset)
+    return scale(1.0 / away, tangential(rate, scale(1.0 / away, offset))) if away > 0.0 else ZERO
+
+
+@kernel
+def in_direction(velocity, direction):
+    """Part of `velocity` in a unit `direction`."""
+    return scale(dot(velocity, direction), direction)
 
 
 @kernel

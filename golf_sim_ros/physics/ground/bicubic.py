@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A surface through heights on a grid: the bicubic spline, in Hermite's form cell by cell.
+
+Its second derivatives are continuous, unlike those of a bicubic made of local slopes: curvature is what
+presses a rolling ball, so the integrators keep their order across the seams of cells. The ends are natural
+(no bending across the outline). Heights of a tilted plane give that plane.
+"""
+from math import floor
+
+import numpy as np
+
+from .._compile import kernel, shared
+
+GRID = np.dtype([
+    ('origin', 'f8', 2), ('spacing', 'f8'), ('nx', 'i8'), ('ny', 'i8'), ('first_node', 'i8'),
+    ('first_cell', 'i8'), ('first_wall', 'i8'), ('number', 'i8'), ('material', 'i8'), ('gentle', 'i8'),
+    ('high', 'f8'), ('hollow', 'f8')], align=True)
+
+
+def slopes(values):
+    """Slopes, per grid step, of the natural cubic splines through the columns of `values`.
+
+    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends 2 s[0] + s[1] = 3 (y[1] - y[0]).
+    """
+    n = len(values)
+    rise = np.diff(values, axis=0)
+    right = 3.0 * np.concatenate((rise[:1], rise[1:] + rise[:-1], rise[-1:]))
+    diagonal = np.full(n, 4.0)
+    diagonal[0] = diagonal[-1] = 2.0
+    for i in range(1, n):
+        right[i] -= right[i - 1] / diagonal[i - 1]
+        diagonal[i] -= 1.0 / diagonal[i - 1]
+    right[-1] /= diagonal[-1]
+    for i in range(n - 2, -1, -1):
+        right[i] = (right[i] - right[i + 1]) / diagonal[i]
+    return right
+
+
+def nodes(heights):
+    """Heights and their derivatives by x, by y and by both, per grid step: (ny, nx, 4)."""
+    by_x = slopes(heights.T).T
+    return np.stack((heights, by_x, slopes(heights), slopes(by_x)), -1)
+
+
+def bounds(at_nodes, spacing):
+    """Bounds on height [m] and curvature [1/m] over every cell: (ny - 1, nx - 1, 4).
+
+    In order: least height, greatest height, greatest upward curvature (0 where there is none), greatest
+    curvature of either sign. They hold for sure: they are those of Bernstein's coefficients.
+    """
+    rows = [_row_bounds(at_nodes[j], at_nodes[j + 1], spacing) for j in range(len(at_nodes) - 1)]
+    return np.array(rows)
+
+
+def _row_bounds(below, above, spacing):
+    # Bezier's ordinates along x of heights and of slopes along y, then of both along y: (nx - 1, 4, 4).
+    def along_x(value, slope):
+        return np.stack((value[:-1], value[:-1] + slope[:-1] / 3, value[1:] - slope[1:] / 3, value[1:]), -1)
+
+    low, high = along_x(below[:, 0], below[:, 1]), along_x(above[:, 0], above[:, 1])
+    rise, fall = along_x(below[:, 2], below[:, 3]) / 3, along_x(above[:, 2], above[:, 3]) / 3
+    points = np.stack((low, low + rise, high - fall, high), -1)
+    area = spacing * spacing
+    xx = 6 * np.diff(points, 2, axis=1) / area
+    yy = 6 * np.diff(points, 2, axis=2) / area
+    xy = np.abs(9 * np.diff(np.diff(points, axis=1), axis=2) / area).max((1, 2))
+    up = _greatest(xx.max((1, 2)), yy.max((1, 2)), xy)
+    down = _greatest((-xx).max((1, 2)), (-yy).max((1, 2)), xy)
+    return np.stack((points.min((1, 2)), points.max((1, 2)), np.maximum(up, 0), np.maximum(up, down)), -1)
+
+
+def _greatest(xx, yy, xy):
+    """Greatest eigenvalue of a symmetric matrix: it grows with each of these."""
+    return 0.5 * (xx + yy) + np.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
+
+
+@kernel
+def hermite(start, slope, end, end_slope, t):
+    """Value, first and second derivative at `t` of a cubic from 0 to 1."""
+    rise = end - start
+    c2 = 3.0 * rise - 2.0 * slope - end_slope
+    c3 = slope + end_slope - 2.0 * rise
+    return (start + t * (slope + t * (c2 + t * c3)), slope + t * (2.0 * c2 + 3.0 * t * c3),
+            2.0 * c2 + 6.0 * t * c3)
+
+
+@kernel
+def cell_at(grid, x, y):
+    """Column and row of the cell at `x`, `y` [m] from the grid's origin, or of the nearest one."""
+    column = min(max(int(floor(x / grid['spacing'])), 0), grid['nx'] - 1)
+    row = min(max(int(floor(y / grid['spacing'])), 0), grid['ny'] - 1)
+    return column, row
+
+
+@shared
+def bicubic(table, grid, x, y):
+    """Height at `x`, `y` [m] from the grid's origin, its derivatives by x, y, xx, xy and yy."""
+    size = grid['spacing']
+    column, row = cell_at(grid, x, y)
+    u = x / size - column
+    v = y / size - row
+    k = grid['first_node'] + row * (grid['nx'] + 1) + column
+    a = table[k]
+    b = table[k + 1]
+    c = table[k + grid['nx'] + 1]
+    d = table[k + grid['nx'] + 2]
+    low = hermite(a[0], a[1], b[0], b[1], u)
+    high = hermite(c[0], c[1], d[0], d[1], u)
+    rise = hermite(a[2], a[3], b[2], b[3], u)
+    rise_high = hermite(c[2], c[3], d[2], d[3], u)
+    z, zy, zyy = hermite(low[0], rise[0], high[0], rise_high[0], v)
+    zx, zxy, _ = hermite(low[1], rise[1], high[1], rise_high[1], v)
+    zxx, _, _ = hermite(low[2], rise[2], high[2], rise_high[2], v)
+    return z, zx / size, zy / size, zxx / (size * size), zxy / (size * size), zyy / (size * size)

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The place of a bicubic surface that is nearest to a point, within a rectangle in plan.
+
+Newton's method on half the squared distance; what lies on the rectangle's border, and would be nearer beyond,
+stays there. Coordinates are metres from the grid's origin.
+"""
+from .._compile import kernel, shared
+from .bicubic import bicubic
+
+MOST_STEPS = 60
+DONE = 1e-13  # of the spacing: steps shorter than this change nothing
+SURE = 1e-6  # of the spacing: where a step is so short, Newton's method is left alone
+SAMPLES = 5  # a side, to start from where there may be several nearest places
+
+
+@kernel
+def held(x, low, high, pull):
+    """Whether a coordinate is at a border that `pull`, the slope of the distance there, drives it over."""
+    return x <= low and pull >= 0.0 or x >= high and pull <= 0.0
+
+
+@shared
+def newton(a, b, c, gx, gy, fixed_x, fixed_y):
+    """Step from slopes `gx`, `gy` with second derivatives `a`, `b`, `c`; a fixed coordinate stays."""
+    if fixed_x and fixed_y:
+        return 0.0, 0.0
+    if fixed_x:
+        return 0.0, -gy / c
+    if fixed_y:
+        return -gx / a, 0.0
+    det = a * c - b * b
+    return (b * gy - c * gx) / det, (b * gx - a * gy) / det
+
+
+@kernel
+def share_within(x, step, low, high):
+    """Share of `step` from `x` that stays between `low` and `high`."""
+    if x + step > high:
+        return (high - x) / step
+    if x + step < low:
+        return (low - x) / step
+    return 1.0
+
+
+@kernel
+def half_square(point, x, y, z):
+    """Half the squared distance."""
+    dx = x - point[0]
+    dy = y - point[1]
+    dz = z - point[2]
+    return 0.5 * (dx * dx + dy * dy + dz * dz)
+
+
+@kernel
+def curvatures(point, at):
+    """Second derivatives of half the squared distance by xx, xy and yy."""
+    z, zx, zy, zxx, zxy, zyy = at
+    up = z - point[2]
+    return 1.0 + zx * zx + up * zxx, zx * zy + up * zxy, 1.0 + zy * zy + up * zyy
+
+
+@kernel
+def pulls(point, x, y, at):
+    """Slopes of half the squared distance by x and y."""
+    up = at[0] - point[2]
+    return x - point[0] + up * at[1], y - point[1] + up * at[2]
+
+
+@shared
+def descend(table, grid, box, x, y, point):
+    """A nearest place to `point` downhill from `x`, `y`, and `bicubic` there."""
+    x0, y0, x1, y1 = box
+    size = grid['spacing']
+    at = bicubic(table, grid, x, y)
+    for _ in range(MOST_STEPS):
+        gx, gy = pulls(point, x, y, at)
+        fixed_x = held(x, x0, x1, gx)
+        fixed_y = held(y, y0, y1, gy)
+        a, b, c = curvatures(point, at)
+        sure = (fixed_x or a > 0.0) and (fixed_y or c > 0.0)
+        if not sure or not (fixed_x or fixed_y or a * c - b * b > 0.01 * a * c):
+            a = 1.0 + at[1] * at[1]  # no minimum is near: downhill as if the surface were flat
+            b = at[1] * at[2]
+            c = 1.0 + at[2] * at[2]
+        dx, dy = newton(a, b, c, gx, gy, fixed_x, fixed_y)
+        if not fixed_x and (x <= x0 and dx < 0.0 or x >= x1 and dx > 0.0):
+            dx, dy = newton(a, b, c, gx, gy, True, fixed_y)
+        elif not fixed_y and (y <= y0 and dy < 0.0 or y >= y1 and dy > 0.0):
+            dx, dy = newton(a, b, c, gx, gy, fixed_x, True)
+        if abs(dx) + abs(dy) <= DONE * size:
+            break
+        share = min(share_within(x, dx, x0, x1), share_within(y, dy, y0, y1))
+        before = half_square(point, x, y, at[0])
+        falling = gx * dx + gy * dy
+        for _ in range(30):
+            nx = onto(x + share * dx, x0, x1, size)
+            ny = onto(y + share * dy, y0, y1, size)
+            at = bicubic(table, grid, nx, ny)
+            if (abs(dx) + abs(dy) < SURE * size
+                    or half_square(point, nx, ny, at[0]) <= before + 1e-4 * share * falling):
+                break
+            share *= 0.5
+        moved = abs(nx - x) + abs(ny - y)
+        x = nx
+        y = ny
+        if moved == 0.0:
+            break
+    return x, y, at
+
+
+@kernel
+def onto(x, low, high, size):
+    """`x` between `low` and `high`, exactly on one that is as good as reached."""
+    if x - low < DONE * size:
+        return low
+    if high - x < DONE * size:
+        return high
+    return x
+
+
+@shared
+def foot(table, grid, box, bend, point):
+    """Nearest place to `point` in the rectangle `box`, and `bicubic` there.
+
+    Where `bend`, a product of curvature and height, is below 1, there is but one; else it is looked for
+    from every sample that lies nearer than those around it.
+    """
+    x0, y0, x1, y1 = box
+    if bend < 1.0:
+        return descend(table, grid, box, min(max(point[0], x0), x1), min(max(point[1], y0), y1), point)
+    best_x = min(max(point[0], x0), x1)
+    best_y = min(max(point[1], y0), y1)
+    best_x, best_y, best_at = descend(table, grid, box, best_x, best_y, point)
+    best = half_square(point, best_x, best_y, best_at[0])
+    for i in range(SAMPLES):
+        for j in range(SAMPLES):
+            x = x0 + (x1 - x0) * i / (SAMPLES - 1.0)
+            y = y0 + (y1 - y0) * j / (SAMPLES - 1.0)
+            here = sample(table, grid, point, x, y)
+            dx = (x1 - x0) / (SAMPLES - 1.0)
+            dy = (y1 - y0) / (SAMPLES - 1.0)
+            if (i > 0 and sample(table, grid, point, x - dx, y) < here
+                    or i < SAMPLES - 1 and sample(table, grid, point, x + dx, y) < here
+                    or j > 0 and sample(table, grid, point, x, y - dy) < here
+                    or j < SAMPLES - 1 and sample(table, grid, point, x, y + dy) < here):
+                continue
+            x, y, at = descend(table, grid, box, x, y, point)
+            far = half_square(point, x, y, at[0])
+            if far < best:
+                best = far
+                best_x = x
+                best_y = y
+                best_at = at
+    return best_x, best_y, best_at
+
+
+@shared
+def sample(table, grid, point, x, y):
+    """Half the squared distance of `point` from the place at `x`, `y`."""
+    return half_square(point, x, y, bicubic(table, grid, x, y)[0])

@@ -1,0 +1,209 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Curved ground from heights on a grid."""
+from math import pi, sqrt
+import os
+
+from driving_range import GRAVITY, HARD, random_shots
+from golf_sim_ros.checked import CourseError
+from golf_sim_ros.course import load_course
+from golf_sim_ros.physics import Course, Heightmap, Material, Phase, Plane, Restitution, World, simulate_many
+from golf_sim_ros.physics.ground import heightmap, laws
+from golf_sim_ros.physics.ground.bicubic import nodes
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from oracles import G, RADIUS
+import pytest
+
+GREEN = Material('green', Restitution(0.4), 0.0, 0.4, 0.35, 0.055, 0.003)
+IDEAL = Material('ideal', Restitution(0.5), 0.0, 2.0, 2.0, 0.0, 0.0)
+MANY = int(os.environ.get('GOLF_SIM_SHOTS', '200'))
+
+
+def surface(height, material=GREEN, spacing=0.5, low=(-10, -10), high=(10, 10)):
+    """Height map of a function of x and y."""
+    x = np.arange(low[0], high[0] + 0.5 * spacing, spacing)
+    y = np.arange(low[1], high[1] + 0.5 * spacing, spacing)
+    heights = np.broadcast_to(height(x[np.newaxis], y[:, np.newaxis]), (len(y), len(x)))
+    return Heightmap(heights, low, spacing, material)
+
+
+def step():
+    """A map with a rise of 1 m over one cell of 0.5 m."""
+    return surface(lambda x, y: 1.0 * (x > 0.1) + 0 * y, HARD, 0.5, (-4, -4), (4, 4))
+
+
+def energy(ball):
+    """Energy over mass [J/kg], with its height counted from z = 0."""
+    v, w = np.array(ball.velocity), np.array(ball.spin)
+    return 0.5 * (v @ v + 0.4 * RADIUS * RADIUS * (w @ w)) + G * ball.position[2]
+
+
+def rests_at(course, start, velocity, accuracy='standard'):
+    """Where a ball that is struck comes to rest; its energy never grows."""
+    world = World(course, effects=GRAVITY, accuracy=accuracy)
+    world.place('ball', start)
+    world.strike('ball', velocity)
+    last = energy(world['ball'])
+    while world.moving and world.time < 60.0:
+        world.advance(0.05)
+        assert energy(world['ball']) <= last + 1e-6, world.time
+        last = energy(world['ball'])
+    assert world['ball'].phase == Phase.REST
+    return np.array(world['ball'].position)
+
+
+def test_a_tilted_plane_of_heights_is_that_plane():
+    velocities, spins = random_shots(10, seed=11)
+    velocities *= 0.1
+    map_ = surface(lambda x, y: 0.03 * x - 0.02 * y, HARD, 4.0, (-40, -40), (40, 40))
+    plane = Plane(normal=(-0.03, 0.02, 1.0), material=HARD)
+    plane = plane._replace(normal=tuple(np.array(plane.normal) / np.linalg.norm(plane.normal)))
+    ends = [simulate_many(Course((ground,)), velocities, spins, effects=GRAVITY, accuracy='reference')
+            for ground in (plane, map_)]
+    for name in ('carry', 'carry_side', 'total', 'side'):
+        np.testing.assert_allclose(ends[1][name], ends[0][name], atol=1e-6, err_msg=name)
+
+
+def test_the_spline_passes_through_its_heights_and_bends_without_a_jump():
+    rng = np.random.default_rng(1)
+    column = rng.normal(size=(9, 1))
+    slope = nodes(np.hstack((column, column)))[:, 0, 2]
+    rise = np.diff(column[:, 0])
+    begin = 6 * rise - 4 * slope[:-1] - 2 * slope[1:]
+    end = -6 * rise + 2 * slope[:-1] + 4 * slope[1:]
+    np.testing.assert_allclose(end[:-1], begin[1:], atol=1e-12)
+    assert begin[0] == pytest.approx(0, abs=1e-12) and end[-1] == pytest.approx(0, abs=1e-12)
+
+
+def test_nearest_is_what_brute_force_finds():
+    kind = heightmap.build([step()], {HARD: 0})
+    grid = kind.grids[0]
+    rng = np.random.default_rng(2)
+    for _ in range(40):
+        row, column = rng.integers(0, 16), rng.integers(6, 11)
+        x = -4 + 0.5 * (column + np.linspace(0, 1, 41))
+        y = -4 + 0.5 * (row + np.linspace(0, 1, 41))
+        point = np.array((x[0], y[0], 0.5)) + rng.uniform((-0.5, -0.5, 0.8), (1, 1, 2))
+        z = np.array([[laws.top(kind, a, b)[0] for a in x] for b in y[:1]])
+        squares = ((x - point[0])[np.newaxis] ** 2 + (y - point[1])[:, np.newaxis] ** 2 + (z - point[2]) ** 2)
+        distance, normal = laws.nearest(kind, row * grid['nx'] + column, tuple(point))
+        brute = sqrt(squares.min())
+        assert brute - 0.01 <= distance <= brute + 1e-3  # from afar a second hollow may be missed by a hair
+        assert np.linalg.norm(normal) == pytest.approx(1, abs=1e-12)
+
+
+def test_a_ball_in_a_bowl_swings_at_5_7_of_a_sliding_one():
+    curve = 2.0  # m: radius of the bowl
+    bowl = surface(lambda x, y: curve - np.sqrt(curve * curve - x * x - y * y), IDEAL, 0.1, (-1, -1), (1, 1))
+    world = World(Course((bowl,)), effects=GRAVITY)
+    world.place('ball', (0.02, 0, bowl.heights[10][10] + 0.0225), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    times, places = np.arange(1, 700) * 0.01, []
+    for _ in times:
+        world.advance(0.01)
+        places.append(world['ball'].position[0])
+    down = [i for i, (a, b) in enumerate(sliding_window_view(places, 2)) if a > 0 >= b]
+    period = (times[down[-1]] - times[down[0]]) / (len(down) - 1)
+    assert period == pytest.approx(2 * pi / sqrt(5 * G / (7 * (curve - RADIUS))), rel=5e-3)
+
+
+@pytest.mark.parametrize('share, flies', [(0.98, False), (1.02, True)])
+def test_a_ball_leaves_a_crest_where_gravity_no_longer_bends_its_path(share, flies):
+    curve = 2.0
+    crest = surface(lambda x, y: np.sqrt(curve * curve - x * x) + 0 * y, IDEAL, 0.05, (-1, -1), (1, 1))
+    speed = share * sqrt(G * (curve + RADIUS))
+    world = World(Course((crest,)), effects=GRAVITY)
+    world.place('ball', (0, 0), (speed, 0, 0), (0, speed / RADIUS, 0))
+    world.advance(0.002)
+    assert (world['ball'].phase == Phase.FLIGHT) == flies
+
+
+@pytest.mark.parametrize('rise, rests', [(1.39, True), (1.41, False)])
+def test_a_ball_holds_where_5_7_of_the_slope_is_no_more_than_rolling_resistance(rise, rests):
+    tilt = rise * 0.055
+    hill = surface(lambda x, y: tilt * x + 0.05 * np.maximum(np.abs(y) - 5, 0) ** 3)
+    world = World(Course((hill,)), effects=GRAVITY)
+    world.place('ball', (0, 0, 0.05), (0, 0, 0), (0, 0, 0))
+    world.advance(60.0)
+    assert (world['ball'].phase == Phase.REST) == rests
+
+
+def test_rest_on_a_wavy_green_is_the_same_to_a_millimetre_at_any_accuracy():
+    green = Course((surface(lambda x, y: 0.3 * np.sin(x / 6) * np.cos(y / 7) + 0.02 * x),))
+    for velocity in [(3.2, 1.0, 0), (-1.5, 0.4, 0), (0.5, -2.5, 1)]:
+        ends = [rests_at(green, (0, 0), velocity, accuracy) for accuracy in ('standard', 'reference')]
+        np.testing.assert_allclose(ends[0], ends[1], atol=1e-3)
+
+
+def test_nothing_tunnels_through_a_steep_map():
+    course = Course((step(), Plane((0, 0, -3), material=HARD)))
+    kind = heightmap.build(course.ground[:1], {HARD: 0})
+    rng = np.random.default_rng(4)
+    for _ in range(MANY):
+        x, y = rng.uniform(-2, 2, 2)
+        world = World(course, effects=GRAVITY, accuracy='sketch')
+        way = rng.normal(size=3) * (1, 1, rng.choice([1, 0.02]))
+        axis = rng.normal(size=3)
+        world.place('ball', (x, y, laws.top(kind, x, y)[0] + 0.1 + rng.uniform(0, 1.9)),
+                    rng.uniform(0, 120) * way / np.linalg.norm(way),
+                    rng.uniform(0, 2000) * axis / np.linalg.norm(axis))
+        for _ in range(30):
+            world.advance(0.02)
+            bx, by, bz = world['ball'].position
+            if max(abs(bx), abs(by)) < 4:
+                assert bz > laws.top(kind, bx, by)[0] + 0.5 * RADIUS, (world.time, world['ball'])
+
+
+def test_a_ball_stays_outside_the_walls_of_a_map():
+    block = surface(lambda x, y: 1.0 + 0.1 * x + 0 * y, HARD, 0.5, (0, -2), (4, 2))
+    world = World(Course((block, Plane(material=HARD))), effects=GRAVITY)
+    world.place('ball', (-1, 0.3, 0.2), (20, 1, 0), (0, 100, 0))
+    for _ in range(100):
+        world.advance(0.02)
+        assert world['ball'].position[0] <= -RADIUS + 1e-6
+
+
+COURSE = '''format: 1
+ground:
+  - {shape: heightmap, heights: green.npy, origin: [-1, -1], spacing: 0.5, material: green}
+'''
+
+
+def saved(folder, heights):
+    """Path of a course file with a map of `heights`."""
+    np.save(folder / 'green.npy', heights)
+    (folder / 'links.yaml').write_text(COURSE)
+    return folder / 'links.yaml'
+
+
+def test_a_course_reads_its_heights_and_its_digest_covers_them(tmp_path):
+    heights = np.arange(30.0).reshape(5, 6) / 100
+    course = load_course(saved(tmp_path, heights))
+    np.testing.assert_array_equal(course.ground[0].heights, heights)
+    assert load_course(saved(tmp_path, heights + 1e-9)).digest != course.digest
+
+
+@pytest.mark.parametrize('heights, said', [
+    (np.zeros((1, 5)), '2 x 2 or more; its shape is (1, 5)'),
+    (np.zeros(5), '2 x 2 or more; its shape is (5,)'),
+    (np.array([[0, 1], [np.nan, 0]]), 'height [1, 0] is nan'),
+    (np.array([[0, 1], [1e9, 0]]), 'height [1, 0] is 1000000000.0'),
+    (np.array([['a', 'b'], ['c', 'd']]), 'must hold numbers'),
+    (np.array([[{}, 1], [1, 1]], object), 'no .npy file that can be read'),
+])
+def test_heights_that_are_none_are_refused_in_one_line(tmp_path, heights, said):
+    with pytest.raises(CourseError) as error:
+        load_course(saved(tmp_path, heights))
+    assert said in str(error.value) and 'green.npy' in str(error.value) and '\n' not in str(error.value)
+
+
+@pytest.mark.parametrize('content, said', [
+    (b'heights', 'is no .npy file'), (b'\x93NUMPY\x01\x00', 'no .npy file that can be read'),
+    (None, 'cannot be read')])
+def test_a_broken_file_of_heights_is_refused_in_one_line(tmp_path, content, said):
+    path = saved(tmp_path, np.zeros((2, 2)))
+    (tmp_path / 'green.npy').unlink()
+    if content is not None:
+        (tmp_path / 'green.npy').write_bytes(content)
+    with pytest.raises(CourseError) as error:
+        load_course(path)
+    assert said in str(error.value) and '\n' not in str(error.value)
