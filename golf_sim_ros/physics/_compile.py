@@ -86,14 +86,30 @@ if numba:
                 self._final_module.link_in(library._get_module_for_linking(), preserve=True)
             self._finalized = True
 
+    class _Apart(_Draft):
+        """Code that stays apart where it is linked into: LLVM would copy it to wherever it is called."""
+
+        def finalize(self):
+            for function in self._final_module.functions:
+                if not function.is_declaration:
+                    function.add_function_attribute('noinline')
+            super().finalize()
+
     class _Drafting(Compiler):
         """Compiles to a `_Draft`."""
+
+        library = _Draft
 
         def compile_extra(self, func):
             context = self.state.targetctx
             context.get_executable = _nothing_to_execute
-            self.state.library = _Draft(context.codegen(), func.__qualname__)
+            self.state.library = self.library(context.codegen(), func.__qualname__)
             return super().compile_extra(func)
+
+    class _DraftingApart(_Drafting):
+        """Compiles to code that stays `_Apart`."""
+
+        library = _Apart
 
     def _nothing_to_execute(library, fndesc, env):
         library._ensure_finalized()
@@ -105,9 +121,7 @@ OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True}
 
 
 def _inner(function, **options):
-    if numba is None:
-        return function
-    compiled = numba.njit(no_cpython_wrapper=True, pipeline_class=_Drafting, **options, **OPTIONS)(function)
+    compiled = numba.njit(no_cpython_wrapper=True, **options, **OPTIONS)(function)
     if isinstance(compiled, CPUDispatcher):  # not with NUMBA_DISABLE_JIT
         compiled.__class__ = _Inner
     return compiled
@@ -118,7 +132,7 @@ def kernel(function):
 
     It is copied to where it is called: a shot takes a quarter of the time that calls would.
     """
-    return _inner(function, forceinline=True)
+    return _inner(function, pipeline_class=_Drafting, forceinline=True) if numba else function
 
 
 def shared(function):
@@ -126,7 +140,8 @@ def shared(function):
 
     With it and `_Draft` the first start on a machine takes 0.7 of the time it took without.
     """
-    return _inner(function)
+    # forceinline has to be denied: numba hands a caller's down to what it calls.
+    return _inner(function, pipeline_class=_DraftingApart, forceinline=False) if numba else function
 
 
 def entry(function):
