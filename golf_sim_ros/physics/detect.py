@@ -28,6 +28,7 @@ NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
 PILE_NEAR = 5e-5  # m: the same in a pile
 SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
+RISING = 1e-12  # m/s: more than the rounding error of a rate, and less than a nanosecond's acceleration
 NEVER = 1e300
 MOST_STEPS = 200
 CROWD = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
@@ -74,16 +75,24 @@ def past_hollows(hollow, distance, gap, rate, bend, fastest):
 
 @kernel
 def leave(ground, part, ball, radius, until):
-    """Time at which a ball that touches `part` tangentially is clear of it, or 0 if it presses on."""
+    """Time up to which a ball that touches `part` tangentially moves off it, or 0 if it presses on.
+
+    A ball that flies off a flat ridge rises by less than can be told from touching before it comes down
+    beyond: up to where it still rose, it is clear.
+    """
     time = 1e-9
+    rising = 0.0
     while time < until and time < 1e-2:
         place = position(ball, time)
         distance, normal = surface.nearest(ground, part, place)
         if distance - radius < -TOUCH:
             # Where the surface has ended meanwhile, the ball falls past it.
-            return 0.0 if surface.touchable(ground, part, place) else time
-        if distance - radius > 10 * TOUCH and dot(normal, velocity(ball, time)) > 0.0:
+            return rising if surface.touchable(ground, part, place) else time
+        rate = dot(normal, velocity(ball, time))
+        if distance - radius > 10 * TOUCH and rate > 0.0:
             return time
+        if rate > RISING:
+            rising = time
         time *= 4.0
     return min(time, until)
 
@@ -107,7 +116,9 @@ def first_touch(ground, part, ball, radius, begin, until):
                 if time >= until:
                     return until, False
                 continue
-            if rate < -TANGENTIAL or time > 0.0 and rate <= 0.0:
+            # Where it is, a ball knows to TOUCH, so the direction of an edge to TOUCH over its radius.
+            grazing = TANGENTIAL + 2.0 * TOUCH / radius * length(velocity(ball, time))
+            if rate < -grazing or time > 0.0 and rate <= 0.0:
                 return time, True
             if time == 0.0 and rate <= TANGENTIAL:
                 time = leave(ground, part, ball, radius, until)

@@ -302,3 +302,15 @@ def test_the_hierarchy_finds_what_brute_force_finds(count):
 def test_a_mesh_that_cannot_be_used_is_refused(mesh, said):
     with pytest.raises(ValueError, match=said):
         World(Course((mesh, Patch((0, 0, 0)))))
+
+
+def test_fast_balls_roll_over_the_flat_ridges_of_wide_ground_without_end():
+    side, step = np.linspace(-100, 100, 71), 71
+    x, y = (a.ravel() for a in np.meshgrid(side, side, indexing='ij'))
+    first = np.arange(step * step).reshape(step, step)[:-1, :-1].ravel()
+    faces = np.r_[np.c_[first, first + step, first + 1], np.c_[first + 1, first + step, first + step + 1]]
+    world = World(course(np.c_[x, y, 0.5 * np.sin(0.1 * x) * np.sin(0.07 * y)], faces), effects=GRAVITY)
+    for heading in range(30):
+        world.place('ball', (0, 0, 3), (20 * cos(heading), 20 * sin(heading), 8))
+        world.advance(30.0)
+        assert not world.moving
