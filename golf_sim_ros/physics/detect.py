@@ -187,6 +187,8 @@ def is_long(low, high, size):
 @kernel
 def is_crowded(ground, low, high):
     """Whether many parts have a point in the box."""
+    if surface.parts(ground) < CROWD:
+        return False
     part = NO_PART
     for _ in range(CROWD):
         part = surface.next_part(ground, part + 1, low, high)
