@@ -11,6 +11,7 @@ from golf_sim_ros.physics.effects.wind import LogProfile, PowerProfile, UniformP
 from golf_sim_ros.physics.ground.patch import Patch
 from golf_sim_ros.physics.ground.plane import Plane
 from golf_sim_ros.physics.ground.solid import Cylinder, Sphere
+from golf_sim_ros.physics.ground.water import Water
 from golf_sim_ros.physics.material import PENNER, Restitution
 from golf_sim_ros.share import share
 
@@ -183,6 +184,11 @@ ground:
     assert [(p.length, p.width) for p in course.ground[1:]] == [(4.0, 2.0), (5.0, 2.0), (5.0, 7.0)]
 
 
+def test_water_is_read(load):
+    course = load(PLAIN + 'water: [{polygon: [[3, 0], [5, 0], [5, 2]], level: -0.2}]')
+    assert course.water == (Water(((3.0, 0.0), (5.0, 0.0), (5.0, 2.0)), -0.2),)
+
+
 def test_obstacles_and_zones_are_read(load):
     course = load(PLAIN + """
 zones: [{material: green, polygon: [[3, 0], [5, 0], [5, 2]]}]
@@ -247,7 +253,11 @@ obstacles:
     ('wind_field: x.npz', "wind_field 'x.npz' is not yet supported; leave it out"),
     ('zones: [{material: green}]', "zones[0]: key 'polygon' is missing; needed: material, polygon"),
     ('zones: [{material: gren, polygon: [[0, 0], [1, 0], [1, 1]]}]', "zones[0].material 'gren' is unknown"),
-    ('water: [1]', 'water [1] is not yet supported'),
+    ('water: [1]', 'water[0] 1 must be a mapping'),
+    ('water: {level: 0}', "water {'level': 0} must be a list of ponds"),
+    ('water: [{polygon: [[0, 0], [1, 0], [1, 1]]}]', "water[0]: key 'level' is missing; needed: polygon, level"),
+    ('water: [{polygon: [[0, 0], [1, 0]], level: 0}]', 'water[0].polygon [[0, 0], [1, 0]] must be a list of 3'),
+    ('water: [{polygon: [[0, 0], [1, 0], [1, 1]], level: .nan}]', 'water[0].level nan must be a number'),
     ('obstacles: [1]', 'obstacles[0] 1 must be a mapping'),
     ('obstacles: [{shape: cone}]', "obstacles[0].shape 'cone' is unknown; known: cylinder, sphere"),
     ('obstacles: [{shape: sphere, radius: 1, material: wood}]', "obstacles[0]: key 'center' is missing"),
