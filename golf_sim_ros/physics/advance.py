@@ -140,7 +140,7 @@ def lay(model, balls, i, now, crowd):
 def is_out(model, ball):
     """Whether the ball fell below all ground, or is on ground or water outside the bounds."""
     ground = model.land.ground
-    if not ball['position'][2] >= ground.lowest - 10.0 * model.land.ball.radius:
+    if ball['water'] == 0 and not ball['position'][2] >= ground.lowest - 10.0 * model.land.ball.radius:
         return True  # not a number, too: whatever went wrong, the shot is over
     if ball['phase'] == FLIGHT and ball['ending'] != HIT and ball['ending'] != SPLASH:
         return False

@@ -20,6 +20,7 @@ KEPT_SPIN = 0.5
 ADDED_MASS = 0.5  # of the water that a sphere displaces: so much goes along with it
 DEEP = 2.0  # radii below the surface
 SLOW = 0.5  # m/s: a golf ball sinks at 0.4
+DEEPEST = 5.0  # m: further down no ball is followed
 
 
 @kernel
@@ -97,7 +98,8 @@ def is_over(land, ball):
         return True
     v = vector(ball['velocity'])
     depth = land.ground.waters.levels[ball['water'] - 1] - ball['position'][2]
-    return dot(v, v) < SLOW * SLOW and (depth > DEEP * land.ball.radius or v[2] >= 0.0)
+    slow = dot(v, v) < SLOW * SLOW
+    return depth > DEEPEST or slow and (depth > DEEP * land.ball.radius or v[2] >= 0.0)
 
 
 @kernel

@@ -48,6 +48,7 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
     outlines = [o for kind, own in by_kind for s in own for o in kind.plan(s)]
     outlines += [outline for _, outline in zones]
     heights = [kind.heights(s) for kind, own in by_kind for s in own]
+    heights += [(pond.level, pond.level) for pond in water]
     return Ground(kinds, _borders(outlines, [bounds] if bounds else []),
                   polygons([outline for _, outline in zones]),
                   np.array([material_number[material] for material, _ in zones], np.int64),

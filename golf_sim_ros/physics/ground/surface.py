@@ -31,8 +31,8 @@ class Ground(NamedTuple):
     ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
     surface may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
     ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
-    greatest height of the rim, height of the bottom; ``waters`` lie over it all; all ground but tilted planes lies between
-    ``lowest`` and ``highest``.
+    greatest height of the rim, height of the bottom; ``waters`` lie over it all; all ground and water but
+    tilted planes lies between ``lowest`` and ``highest``.
     """
 
     kinds: tuple
