@@ -23,6 +23,7 @@ FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the stick
 TEE_MARKERS = 4.0  # m from one to the other
 UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
 BLACK, WHITE, RED = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.85, 0.1, 0.1)
+BLUE, CLEAR = (0.15, 0.4, 0.75), 0.6  # water, and how much of it is seen
 
 
 def course_markers(course, frame_id):
@@ -33,7 +34,7 @@ def course_markers(course, frame_id):
             by_material.setdefault(material, []).extend(corner for piece in pieces for corner in piece)
     lists = [ground_marker(number, material, corners)
              for number, (material, corners) in enumerate(by_material.items()) if corners]
-    markers = [*lists, *tee(course), *hole(course), *obstacles(course)]
+    markers = [*lists, *tee(course), *hole(course), *obstacles(course), *water(course)]
     for marker in markers:
         marker.header.frame_id = frame_id
     return MarkerArray(markers=markers)
@@ -163,6 +164,17 @@ def flagstick(x, y, z):
     flag = marker('hole', 2, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), RED)
     flag.points = points((x + ahead, y, z + over) for ahead, over in FLAG)
     return [stick, flag]
+
+
+def water(course):
+    """TRIANGLE_LIST of all water, that the ground below shines through; nothing on dry land."""
+    if not course.water:
+        return []
+    made = marker('water', 0, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), BLUE)
+    made.color.a = CLEAR
+    made.points = points((x, y, pond.level) for pond in course.water
+                         for triangle in triangles(pond.polygon) for x, y in triangle)
+    return [made]
 
 
 def obstacles(course):

@@ -9,7 +9,8 @@ from visualization_msgs.msg import Marker
 from golf_sim_ros.course import load_course
 from golf_sim_ros.markers import course_markers, HOLE_DIAMETER, MARGIN, outskirts
 from golf_sim_ros.messages import header
-from golf_sim_ros.physics import Course, Cylinder, ground_height, Material, Patch, Plane, Sphere, World
+from golf_sim_ros.physics import (Course, Cylinder, ground_height, Material, Patch, Plane, Sphere, Water,
+                                  World)
 from golf_sim_ros.physics.ground.cup import DEPTH
 from golf_sim_ros.play_markers import CONTACTS, Scene, Trail, TRAIL
 from golf_sim_ros.slabs import inside, triangles
@@ -106,6 +107,17 @@ def test_where_a_patch_lies_in_the_plane_only_the_patch_is_shown():
     found = surfaces(course_markers(Course(ground), 'course'))
     assert covers(found[0.9, 0.8, 0.6], 10.1, 0.1)
     assert not covers(found[0.1, 0.5, 0.1], 10.1, 0.1) and covers(found[0.1, 0.5, 0.1], 13.1, 0.1)
+
+
+def test_water_is_blue_over_its_polygon_at_its_level_and_what_is_below_shines_through():
+    course = Course((Plane(material=GRASS, cut=(PIT,)),), water=(Water(PIT, -0.2), Water(SQUARE, 0.5)))
+    array = course_markers(course, 'course')
+    made, = (marker for marker in array.markers if marker.ns == 'water')
+    corners = [(point.x, point.y, point.z) for point in made.points]
+    pieces = [corners[i:i + 3] for i in range(0, len(corners), 3)]
+    assert total(pieces) == pytest.approx(200.0) and 0.3 < made.color.a < 0.9
+    assert made.color.b > max(made.color.r, made.color.g)
+    assert {(x > 15.0, z) for x, _, z in corners} == {(True, -0.2), (False, 0.5)}
 
 
 def test_an_upright_patch_and_an_upright_plane_are_shown():
