@@ -16,6 +16,7 @@ from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
 from .physics.ground.solid import FLAGSTICK_HEIGHT, FLAGSTICK_RADIUS, Sphere
+from .slabs import triangles
 
 MARGIN = 60.0  # m of an endless plane that are drawn around everything else
 HOLE_DIAMETER = 2 * RADIUS
@@ -98,8 +99,8 @@ def lifted(place, normal, pieces):
     """`pieces`, materials with triangles of (x, y) of each, in the plane through `place`."""
     def height(x, y):
         return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
-    return [(material, [[(x, y, height(x, y)) for x, y in triangle] for triangle in triangles])
-            for material, triangles in pieces]
+    return [(material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
+            for material, found in pieces]
 
 
 def covered(shape, course, number):

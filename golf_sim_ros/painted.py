@@ -26,7 +26,7 @@ def boxes_meet(one, other):
 
 
 def curved(corners, material, zones):
-    """Pairs of a material and its triangles; each of `corners`, (n, 3, 3), is of one colour, as at its middle."""
+    """Pairs of a material and its triangles: each of `corners`, (n, 3, 3), is painted as its middle."""
     corners = np.asarray(corners, float)
     paint = last_zone(zones, *corners[..., :2].mean(1).T)
     return [(zones[number][0] if number >= 0 else material, corners[paint == number])

@@ -551,7 +551,7 @@ def in_sand(course, x, y):
     return np.any([within(pit, x, y) for pit in pits], axis=0)
 
 
-def test_golf_without_friends_has_no_gap_and_no_step_but_the_lips_of_bunkers_and_the_bank_of_its_pond(friends):
+def test_golf_without_friends_has_no_gap_and_no_step_but_at_its_bunkers_and_its_pond(friends):
     # Between these lines the ground is the highest of some planes, and so has no step either.
     for polygon in outlines(friends):
         for places, left, right in steps(friends, polygon):

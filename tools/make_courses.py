@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Make the shipped courses' files: ``python tools/make_courses.py [FOLDER]``, by default config/courses.
 
-The same bytes come out every time. `golf_without_friends.yaml` is written by hand; only its bunkers are made here.
+The same bytes come out every time. `golf_without_friends.yaml` is written by hand; its bunkers are made here.
 """
 from pathlib import Path
 import sys

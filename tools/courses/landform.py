@@ -46,7 +46,7 @@ def plateau(x, y, center, radii, slope, heading=0.0):
 
 
 def waves(x, y, seed, lengths, count):
-    """Waves of `count` directions and `lengths` [m], from the least to the greatest: mean 0, about -1 to 1."""
+    """Waves of `count` directions, their lengths [m] between the two of `lengths`: mean 0, about -1 to 1."""
     random = Random(seed)
     total = 0.0
     for i in range(count):

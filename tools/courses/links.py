@@ -5,7 +5,7 @@ from random import Random
 import numpy as np
 
 from .landform import (along, band, bump, ellipse, grid, inland, plateau, smooth, waves)
-from .writing import npy, place, polygon, rectangle, rounded, text
+from .writing import npy, place, polygon, rectangle, rounded
 
 LOW, HIGH, SPACING = (-20.0, -60.0), (380.0, 60.0), 1.0
 SHORE = 12.0  # m from the map's outline to where the dunes are at their full height
@@ -24,12 +24,13 @@ BUNKERS = [  # middle, radii of the hollow, heading, depth [m]
 SAND = 0.72  # of a hollow's radii that are sand
 POND, POND_RADII, POND_DEPTH, POND_LEVEL = (150.0, -34.0), (26.0, 15.0), 2.6, -0.1
 TREES, TREE_SEED = 14, 7
+FOOT = 0.5  # m of a trunk that are in the ground
 WOODS = [((60.0, 38.0), (30.0, 10.0)), ((185.0, 42.0), (32.0, 9.0)), ((290.0, -40.0), (34.0, 9.0))]
 
 TEXT = """\
-# A par 4 of 346 m between dunes, in one height map of 400 x 120 m: over rough to a fairway that bends, with a pond to
-# its right, bunkers where drives and approaches end, and a green with a tier. Made by tools/make_courses.py; change
-# it there.
+# A par 4 of 346 m between dunes, in one height map of 400 x 120 m: over rough to a fairway that bends, with a
+# pond to its right, bunkers where drives and approaches end, and a green with a tier.
+# Made by tools/make_courses.py; change it there.
 format: 1
 name: Links
 tee: {tee}
@@ -101,19 +102,20 @@ def trees(land):
         middle, reach = WOODS[i % len(WOODS)]
         x, y = (round(m + random.uniform(-r, r), 1) for m, r in zip(middle, reach))
         trunk, crown = round(random.uniform(3.0, 4.5), 1), round(random.uniform(2.0, 3.2), 1)
-        z = land[round((y - LOW[1]) / SPACING), round((x - LOW[0]) / SPACING)] - 0.5  # its foot is in the ground
-        lines += [f'  - {{shape: cylinder, base: {place((x, y, z))}, radius: 0.2, height: {trunk + 0.5:g}, '
+        z = land[round((y - LOW[1]) / SPACING), round((x - LOW[0]) / SPACING)]
+        base, center = place((x, y, z - FOOT)), place((x, y, z + trunk + 0.6 * crown))
+        lines += [f'  - {{shape: cylinder, base: {base}, radius: 0.2, height: {trunk + FOOT:g}, '
                   'material: wood}',
-                  f'  - {{shape: sphere, center: {place((x, y, z + trunk + 0.5 + 0.6 * crown))}, radius: {crown:g}, '
-                  'material: leaves}']
+                  f'  - {{shape: sphere, center: {center}, radius: {crown:g}, material: leaves}}']
     return lines
 
 
 def files():
     """Names and bytes."""
     land = heights()
+    painted = [f'  - {{material: {name}, polygon: {polygon(corners)}}}' for name, corners in zones()]
     content = TEXT.format(
         tee=list(TEE), hole=list(HOLE), outline=polygon(rectangle(LOW, HIGH)), low=list(LOW), spacing=SPACING,
-        zones='\n'.join(f'  - {{material: {name}, polygon: {polygon(corners)}}}' for name, corners in zones()),
-        level=POND_LEVEL, pond=polygon(ellipse(POND, POND_RADII)), trees='\n'.join(trees(land)))
-    return {'links.yaml': text([content.rstrip('\n')]), 'links.npy': npy(land)}
+        zones='\n'.join(painted), level=POND_LEVEL, pond=polygon(ellipse(POND, POND_RADII)),
+        trees='\n'.join(trees(land)))
+    return {'links.yaml': content.encode(), 'links.npy': npy(land)}

@@ -2,13 +2,14 @@
 """Everything that a course may hold, once, within 60 m."""
 from .bowl import bowl
 from .landform import bump, grid, inland
-from .writing import npy, polygon, rectangle, rounded, stl, text
+from .writing import npy, polygon, rectangle, rounded, stl
 
 BUNKER, LIP, BUNKER_DEPTH = [(20, 7), (24, 6), (27, 9), (25, 13), (21, 12)], 0.1, 0.5
 LOW, HIGH, SPACING = (34.0, -8.0), (50.0, 8.0), 0.5  # of the green
 
 TEXT = """\
-# Everything that a course may hold, within 60 m: every shape, material, zone, obstacle, water, a hole, bounds.
+# Everything that a course may hold, within 60 m: every shape and material, a zone, obstacles, water, a hole
+# and bounds.
 # Made by tools/make_courses.py; change it there.
 format: 1
 name: Playground
@@ -54,5 +55,5 @@ def files():
     """Names and bytes."""
     content = TEXT.format(bunker=polygon(BUNKER), green=polygon(rectangle(LOW, HIGH)), low=list(LOW),
                           spacing=SPACING)
-    return {'playground.yaml': text([content.rstrip('\n')]), 'playground.npy': npy(heights()),
+    return {'playground.yaml': content.encode(), 'playground.npy': npy(heights()),
             'playground_bunker.stl': stl(bowl(BUNKER, 0.0, LIP, BUNKER_DEPTH))}

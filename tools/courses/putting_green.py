@@ -3,7 +3,7 @@
 import numpy as np
 
 from .landform import bump, ellipse, grid, inland
-from .writing import npy, polygon, rectangle, rounded, text
+from .writing import npy, polygon, rectangle, rounded
 
 LOW, HIGH, SPACING = (-12.0, -16.0), (22.0, 16.0), 0.5
 MIDDLE, RADII = (5.0, 0.0), (10.5, 9.5)  # of the green
@@ -11,8 +11,8 @@ SHOULDER = 6.0  # m from the map's outline to where the land is as high as it is
 HOLE = (3.0, 0.0)
 
 TEXT = """\
-# A putting green of 21 x 19 m, stimp 10: from the tee a putt of 3 m that breaks to the right, to the sides longer
-# ones, over a ridge and into a bowl. Made by tools/make_courses.py; change it there.
+# A putting green of 21 x 19 m, stimp 10: from the tee a putt of 3 m that breaks to the right; elsewhere
+# longer ones, over a ridge and into a bowl. Made by tools/make_courses.py; change it there.
 format: 1
 name: Putting green
 tee: [0, 0]
@@ -45,6 +45,6 @@ def heights():
 
 def files():
     """Names and bytes."""
-    content = TEXT.format(hole=list(HOLE), outline=polygon(rectangle(LOW, HIGH)), low=list(LOW), spacing=SPACING,
-                          green=polygon(ellipse(MIDDLE, RADII, corners=36)))
-    return {'putting_green.yaml': text([content.rstrip('\n')]), 'putting_green.npy': npy(heights())}
+    content = TEXT.format(hole=list(HOLE), outline=polygon(rectangle(LOW, HIGH)), low=list(LOW),
+                          spacing=SPACING, green=polygon(ellipse(MIDDLE, RADII, corners=36)))
+    return {'putting_green.yaml': content.encode(), 'putting_green.npy': npy(heights())}

@@ -44,8 +44,3 @@ def polygon(corners):
 def rectangle(low, high):
     """Corners of the rectangle between two (x, y)."""
     return [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]
-
-
-def text(lines):
-    """UTF-8 of `lines`."""
-    return ('\n'.join(lines) + '\n').encode()
