@@ -163,7 +163,8 @@ def test_a_ball_that_comes_through_the_side_of_the_outline_is_in_the_water_there
 
 
 def test_where_the_ground_is_higher_than_the_level_there_is_no_water():
-    world = World(bank()._replace(water=(Water(((-50.0, -5.0), (60.0, -5.0), (60.0, 5.0), (-50.0, 5.0)), -1.0),)))
+    outline = ((-50.0, -5.0), (60.0, -5.0), (60.0, 5.0), (-50.0, 5.0))
+    world = World(bank()._replace(water=(Water(outline, -1.0),)))
     world.strike('ball', (-3.0, 0.0, 0.3))
     hits, _ = split(world.advance(1.0))
     assert not hits and world['ball'].position[0] < -1.0
@@ -182,7 +183,7 @@ def test_a_ball_knocked_into_the_water_is_back_without_a_result():
     world.place('a', (7.0, 0.0))
     world.place('b', (9.5, 0.0))
     spot = world['b'].position
-    world.strike('a', (3.3, 0.0, 0.0))
+    world.strike('a', (3.7, 0.0, 0.0))
     hits, results = split(world.advance(30.0))
     assert [hit.ball for hit in hits if hit.kind == 'water'] == ['b']
     assert [result.ball for result in results] == ['a']
