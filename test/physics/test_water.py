@@ -288,3 +288,14 @@ def test_water_out_of_bounds_is_out_of_bounds():
     world.strike('ball', (10.0, 0.0, 8.0))
     hits, (result,) = split(world.advance(20.0))
     assert [hit.kind for hit in hits] == ['water', 'out_of_bounds'] and result.status == 'out_of_bounds'
+
+
+@pytest.mark.parametrize('order', [('a', 'b'), ('b', 'a')])
+def test_balls_that_meet_in_the_air_beyond_the_bounds_are_not_out_yet(order):
+    world = World(Course((Plane(material=TURF),), effects=('gravity', 'ball_ball'),
+                         bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0))), ('a', 'b'))
+    starts = {'a': ((18.0, 0.0, 2.0), (10.0, 0.0, 0.0)), 'b': ((20.0, 0.0, 2.0), (-1.0, 0.0, 0.0))}
+    for name in order:
+        world.place(name, *starts[name])
+    met, *_ = world.advance(0.25)
+    assert met.kind == 'ball' and world['a'].phase == world['b'].phase == Phase.FLIGHT
