@@ -294,8 +294,8 @@ def test_water_out_of_bounds_is_out_of_bounds():
 def test_balls_that_meet_in_the_air_beyond_the_bounds_are_not_out_yet(order):
     world = World(Course((Plane(material=TURF),), effects=('gravity', 'ball_ball'),
                          bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0))), ('a', 'b'))
-    starts = {'a': ((18.0, 0.0, 2.0), (10.0, 0.0, 0.0)), 'b': ((20.0, 0.0, 2.0), (-1.0, 0.0, 0.0))}
+    starts = {'a': ((18.0, 0.0, 0.25), (10.0, 0.0, 0.0)), 'b': ((20.0, 0.0, 0.25), (-1.0, 0.0, 0.0))}
     for name in order:
         world.place(name, *starts[name])
-    met, *_ = world.advance(0.25)
+    met, *_ = world.advance(0.2)
     assert met.kind == 'ball' and world['a'].phase == world['b'].phase == Phase.FLIGHT
