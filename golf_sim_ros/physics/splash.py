@@ -9,7 +9,8 @@ from .vector import ZERO, dot, length, put, scale, sub, vector
 
 WATER_DENSITY = 998.0  # kg/m^3, fresh, at 20 degrees Celsius
 # Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998) 15-24: a
-# sphere comes off water that it meets at less than 18 degrees over the root of its specific gravity; 16.9 degrees for a golf ball.
+# sphere comes off water that it meets at less than 18 degrees over the root of its specific gravity. For a
+# golf ball that is 16.9 degrees.
 CRITICAL_ANGLE = 18.0 * pi / 180
 # That is for balls so fast that their weight does not count. Estimates: the slowest that skips, and what
 # it keeps of its speed along the water, upwards, and of its spin.
