@@ -20,7 +20,7 @@ from .world import BallState, Rejected, World
 
 __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'Heightmap',
-    'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile',
-    'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile', 'Water', 'World',
-    'check_hole', 'ground_height', 'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
-    'standard_atmosphere']
+    'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
+    'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile',
+    'Water', 'World', 'check_hole', 'ground_height', 'register_effect', 'rolling_resistance_of_stimp',
+    'simulate', 'simulate_many', 'standard_atmosphere']

@@ -5,7 +5,7 @@ To be in water is to be below its level and inside its outline. It is safe to ad
 still fail.
 """
 from ._compile import kernel, shared
-from .detect import MOST_STEPS, NEVER, TANGENTIAL, TOUCH, safe_advance
+from .detect import MOST_STEPS, TANGENTIAL, TOUCH, safe_advance
 from .ground.polygon import beside
 from .path import greatest_acceleration, least_acceleration, position, span_along, velocity
 from .vector import length

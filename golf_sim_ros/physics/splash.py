@@ -8,8 +8,9 @@ from .state import FLIGHT, NO_PART, WATER, WET, moves
 from .vector import ZERO, dot, length, put, scale, sub, vector
 
 WATER_DENSITY = 998.0  # kg/m^3, fresh, at 20 degrees Celsius
-# Johnson, Int. J. Impact Eng. 21 (1998) 15-34: a sphere comes off water where it meets it at less than 18
-# degrees over the root of its specific gravity; 16.9 degrees for a golf ball.
+# Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998) 15-24: a
+# sphere comes off water that it meets at less than 18 degrees over the root of its specific gravity. For a
+# golf ball that is 16.9 degrees.
 CRITICAL_ANGLE = 18.0 * pi / 180
 # That is for balls so fast that their weight does not count. Estimates: the slowest that skips, and what
 # it keeps of its speed along the water, upwards, and of its spin.
@@ -42,7 +43,8 @@ def splash(land, ball, number, now, log):
     heavy = specific_gravity(land.ball)
     if skips(land, ball, velocity, heavy):
         ball['bounces'] += 1
-        put(ball['velocity'], (KEPT_ALONG * velocity[0], KEPT_ALONG * velocity[1], -KEPT_UPWARD * velocity[2]))
+        x, y, z = velocity
+        put(ball['velocity'], (KEPT_ALONG * x, KEPT_ALONG * y, -KEPT_UPWARD * z))
         put(ball['spin'], scale(KEPT_SPIN, spin))
     else:
         ball['water'] = ball['target']
@@ -52,6 +54,7 @@ def splash(land, ball, number, now, log):
     put(ball['normal'], (0.0, 0.0, 1.0))
     ball['step'] = 0.0
     ball['stalled'] = 0
+    ball['piled'] = 0
     tell(land, ball, number, now, (velocity, spin), log)
 
 

@@ -15,8 +15,8 @@ from .ground import surface
 from .piece import LONGEST_SHOT, put_down
 from .report import KINDS, collision, objection, result, three
 from .shot import tee_off
-from .state import (BALL, BOUNCE, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL, SLIDE, STEP,
-                    SHOT_ENDS, WATER, WET, Phase, new_log, plain, restored)
+from .state import (BALL, BOUNCE, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
+                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, new_log, plain, restored)
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee

@@ -163,7 +163,8 @@ def test_a_ball_that_comes_through_the_side_of_the_outline_is_in_the_water_there
 
 
 def test_where_the_ground_is_higher_than_the_level_there_is_no_water():
-    world = World(bank()._replace(water=(Water(((-50.0, -5.0), (60.0, -5.0), (60.0, 5.0), (-50.0, 5.0)), -1.0),)))
+    outline = ((-50.0, -5.0), (60.0, -5.0), (60.0, 5.0), (-50.0, 5.0))
+    world = World(bank()._replace(water=(Water(outline, -1.0),)))
     world.strike('ball', (-3.0, 0.0, 0.3))
     hits, _ = split(world.advance(1.0))
     assert not hits and world['ball'].position[0] < -1.0
@@ -182,7 +183,7 @@ def test_a_ball_knocked_into_the_water_is_back_without_a_result():
     world.place('a', (7.0, 0.0))
     world.place('b', (9.5, 0.0))
     spot = world['b'].position
-    world.strike('a', (3.3, 0.0, 0.0))
+    world.strike('a', (3.7, 0.0, 0.0))
     hits, results = split(world.advance(30.0))
     assert [hit.ball for hit in hits if hit.kind == 'water'] == ['b']
     assert [result.ball for result in results] == ['a']
@@ -287,3 +288,14 @@ def test_water_out_of_bounds_is_out_of_bounds():
     world.strike('ball', (10.0, 0.0, 8.0))
     hits, (result,) = split(world.advance(20.0))
     assert [hit.kind for hit in hits] == ['water', 'out_of_bounds'] and result.status == 'out_of_bounds'
+
+
+@pytest.mark.parametrize('order', [('a', 'b'), ('b', 'a')])
+def test_balls_that_meet_in_the_air_beyond_the_bounds_are_not_out_yet(order):
+    world = World(Course((Plane(material=TURF),), effects=('gravity', 'ball_ball'),
+                         bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0))), ('a', 'b'))
+    starts = {'a': ((18.0, 0.0, 0.25), (10.0, 0.0, 0.0)), 'b': ((20.0, 0.0, 0.25), (-1.0, 0.0, 0.0))}
+    for name in order:
+        world.place(name, *starts[name])
+    met, *_ = world.advance(0.2)
+    assert met.kind == 'ball' and world['a'].phase == world['b'].phase == Phase.FLIGHT

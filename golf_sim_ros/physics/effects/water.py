@@ -3,7 +3,7 @@
 from math import pi
 from typing import NamedTuple
 
-from ..splash import ADDED_MASS, WATER_DENSITY, specific_gravity
+from ..splash import ADDED_MASS, WATER_DENSITY
 from ..vector import add, length, scale, sub
 from . import laws
 
@@ -13,10 +13,10 @@ DRAG_COEFFICIENT = 0.45
 
 
 class Water(NamedTuple):
-    """Under water a ball of velocity v feels (1 - `buoyancy`) g - `push` |v| v, and `share` of it as acceleration.
+    """A ball of velocity v is accelerated by `share` times (1 - `buoyancy`) g - `push` |v| v.
 
     `push` is rho A cd / (2 m) [1/m]; `buoyancy` the water's density over the ball's; `share` the ball's
-    mass over that with the water that it carries along.
+    mass over its mass with the water that it carries along.
     """
 
     push: float
@@ -34,7 +34,7 @@ def _under_water(effect, weight, velocity):
 def record(scene):
     """Record for `scene`."""
     ball = scene.course.ball
-    buoyancy = 1.0 / (ball.mass / (4.0 / 3.0 * pi * ball.radius ** 3 * WATER_DENSITY))
+    buoyancy = 4.0 / 3.0 * pi * ball.radius ** 3 * WATER_DENSITY / ball.mass
     push = 0.5 * WATER_DENSITY * DRAG_COEFFICIENT * pi * ball.radius ** 2 / ball.mass
     return Water(float(push), float(buoyancy), float(1.0 / (1.0 + ADDED_MASS * buoyancy)))
 
