@@ -55,7 +55,7 @@ def bounds(at_nodes, spacing):
 
 
 def _bounds(at, spacing):
-    # Bezier's ordinates along x of heights and of slopes along y, then of both along y: (4, 4, ny - 1, nx - 1).
+    # Bezier's ordinates along x of heights and of slopes along y, then both along y: (4, 4, ny - 1, nx - 1).
     def along_x(value, slope):
         left, right = np.s_[:, :-1], np.s_[:, 1:]
         third = slope / 3
