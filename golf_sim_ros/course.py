@@ -21,6 +21,7 @@ from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
 from .physics.ground.solid import Cylinder, Sphere
+from .physics.ground.water import Water
 from .share import share
 from .yaml_file import read_yaml
 
@@ -38,6 +39,8 @@ WEATHER = record(Air, {'temperature': number(150, 400), 'pressure': number(0, 1e
 ALTITUDE = fields({'altitude': number(-1000, 11000)})
 BALL = record(Ball, {'mass': number(1e-6, 1000), 'radius': number(1e-3, 1), 'inertia': number(0.01, 1),
                      'restitution': number(0, 1), 'friction': number(0)})
+
+WATER = record(Water, {'polygon': polygon, 'level': number()}, ('polygon', 'level'))
 
 
 def load_course(name_or_path):
@@ -108,7 +111,8 @@ def course_of(content, base, folder, sources, opened):
     read = fields({
         'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
         'bounds': polygon, 'air': air, 'wind_profile': tagged('law', PROFILES), 'effects': effects,
-        'ball': BALL, 'materials': mapping, 'wind_field': to_come, 'water': to_come,
+        'ball': BALL, 'materials': mapping, 'wind_field': to_come,
+        'water': list_of(WATER, 'a list of ponds, as in [{polygon: [[x, y], ...], level: z}]'),
         'zones': list_of(zone_of(known), 'a list of zones'),
         'obstacles': list_of(obstacle_of(known), 'a list of obstacles'),
         'ground': list_of(shape, 'a list of one or more shapes', 1),

@@ -7,9 +7,11 @@ import numpy as np
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
+from .painted import cells, curved, flat
 from .physics import ground_height
 from .physics.ground.cup import DEPTH, RADIUS
 from .physics.ground.flat import frame
+from .physics.ground.heightmap import corners as corners_of_map, Heightmap
 from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
@@ -22,17 +24,18 @@ FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the stick
 TEE_MARKERS = 4.0  # m from one to the other
 UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
 BLACK, WHITE, RED = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.85, 0.1, 0.1)
+BLUE, CLEAR = (0.15, 0.4, 0.75), 0.6  # water, and how much of it is seen
 
 
 def course_markers(course, frame_id):
     """MarkerArray of `course`, stamp 0 so that viewers use their newest transform."""
     by_material = {}
     for number, shape in enumerate(course.ground):
-        found = by_material.setdefault(shape.material, [])
-        found.extend(corner for triangle in surface(shape, course, number) for corner in triangle)
+        for material, pieces in surface(shape, course, number):
+            by_material.setdefault(material, []).extend(corner for piece in pieces for corner in piece)
     lists = [ground_marker(number, material, corners)
              for number, (material, corners) in enumerate(by_material.items()) if corners]
-    markers = [*lists, *tee(course), *hole(course), *obstacles(course)]
+    markers = [*lists, *tee(course), *hole(course), *obstacles(course), *water(course)]
     for marker in markers:
         marker.header.frame_id = frame_id
     return MarkerArray(markers=markers)
@@ -47,7 +50,7 @@ def ground_marker(number, material, corners):
 
 @singledispatch
 def surface(shape, course, number):
-    """Triangles of three (x, y, z) that show `shape`, entry `number` of the ground of `course`."""
+    """Materials, and triangles of three (x, y, z) of each, that show entry `number` of the ground."""
     raise TypeError(f'nothing is known about drawing a {type(shape).__name__}')
 
 
@@ -55,21 +58,28 @@ def surface(shape, course, number):
 def _plane(shape: Plane, course, number):
     if abs(shape.normal[2]) < UPRIGHT:
         return wall(shape)
-    return lifted(shape.point, shape.normal, outskirts(course), covered(shape, course, number))
+    pieces = flat(outskirts(course), covered(shape, course, number), shape.material, course.zones)
+    return lifted(shape.point, shape.normal, pieces)
 
 
 @surface.register
 def _patch(shape: Patch, course, number):
     corners = rectangle(shape)
     if abs(shape.normal[2]) < UPRIGHT:
-        return [corners[:3], [corners[0], *corners[2:]]]
+        return [(shape.material, [corners[:3], [corners[0], *corners[2:]]])]
     outline = [tuple(corner[:2]) for corner in corners]
-    return lifted(shape.center, shape.normal, outline, covered(shape, course, number))
+    pieces = flat(outline, covered(shape, course, number), shape.material, course.zones)
+    return lifted(shape.center, shape.normal, pieces)
 
 
 @surface.register
 def _mesh(shape: Mesh, course, number):
-    return shape.vertices[shape.faces]
+    return curved(shape.vertices[shape.faces], shape.material, course.zones)
+
+
+@surface.register
+def _heightmap(shape: Heightmap, course, number):
+    return curved(cells(shape.heights, shape.origin, shape.spacing), shape.material, course.zones)
 
 
 def rectangle(patch):
@@ -82,14 +92,15 @@ def rectangle(patch):
 
 def wall(plane):
     """Two triangles of an upright `plane`, as wide and high as `MARGIN`."""
-    return _patch(Patch(plane.point, plane.normal, 0.0, MARGIN, MARGIN), None, 0)
+    return _patch(Patch(plane.point, plane.normal, 0.0, MARGIN, MARGIN, plane.material), None, 0)
 
 
-def lifted(place, normal, outline, cuts):
-    """Triangles of `outline` without `cuts`, in the plane through `place`."""
+def lifted(place, normal, pieces):
+    """`pieces`, materials with triangles of (x, y) of each, in the plane through `place`."""
     def height(x, y):
         return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
-    return [[(x, y, height(x, y)) for x, y in triangle] for triangle in triangles(outline, cuts)]
+    return [(material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
+            for material, found in pieces]
 
 
 def covered(shape, course, number):
@@ -121,6 +132,8 @@ def extent(shape):
     if isinstance(shape, Mesh):
         used = shape.vertices[shape.faces].reshape(-1, 3)
         return used.min(0), used.max(0)
+    if isinstance(shape, Heightmap):
+        return corners_of_map(shape)
     return rectangle(shape) if isinstance(shape, Patch) else sum(shape.cut, ())
 
 
@@ -152,6 +165,17 @@ def flagstick(x, y, z):
     flag = marker('hole', 2, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), RED)
     flag.points = points((x + ahead, y, z + over) for ahead, over in FLAG)
     return [stick, flag]
+
+
+def water(course):
+    """TRIANGLE_LIST of all water, that the ground below shines through; nothing on dry land."""
+    if not course.water:
+        return []
+    made = marker('water', 0, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), BLUE)
+    made.color.a = CLEAR
+    made.points = points((x, y, pond.level) for pond in course.water
+                         for triangle in triangles(pond.polygon) for x, y in triangle)
+    return [made]
 
 
 def obstacles(course):

@@ -228,12 +228,12 @@ def other_impacts(recording, shot, again, tick):
     """Differences between the collisions told and those that happened again; some may not be recorded."""
     strike, happened = shot.strike, {}
     for number, impact in again.impacts:
-        happened[impact.time] = number, json.loads(collision_text(impact))
+        happened[impact.time, impact.kind] = number, json.loads(collision_text(impact))
     end = strike['time'] + (again.end - strike['tick'] + 0.5) * tick
     for told in recording.collisions:
         if told['ball'] == strike['ball'] and strike['time'] <= told['time'] <= end:
             number = strike['tick'] + ceil((told['time'] - strike['time']) / tick)
-            number, now = happened.get(told['time'], (number, {}))
+            number, now = happened.get((told['time'], told['kind']), (number, {}))
             for field in told:
                 if told[field] != now.get(field):
                     yield Difference(number, f'{field} of a collision', told[field], now.get(field))

@@ -3,8 +3,10 @@
 from math import isclose
 
 
-def triangles(outline, cuts=()):
+def triangles(outline, cuts=(), window=None):
     """Triangles, tuples of three (x, y) counterclockwise, that cover `outline` except for `cuts`.
+
+    With a `window`, only what lies in that polygon, too.
 
     The plane is sliced into slabs at the y of every corner and crossing. Within a slab no two edges
     cross, so the pieces between neighbouring edges are trapezoids, each all inside or all outside::
@@ -15,13 +17,14 @@ def triangles(outline, cuts=()):
 
     Polygons are tuples of (x, y) in either direction; they may be concave and overlap each other.
     """
-    polygons = [tuple(outline), *(tuple(cut) for cut in cuts)]
-    edges = [edge for polygon in polygons for edge in sides(polygon)]
+    kept, gone = [tuple(outline), *([tuple(window)] if window else [])], [tuple(cut) for cut in cuts]
+    edges = [edge for polygon in (*kept, *gone) for edge in sides(polygon)]
     levels = sorted({y for a, b in edges for y in (a[1], b[1])} | set(crossings(edges)))
     found = []
     for low, high in zip(levels, levels[1:]):
         for piece in trapezoids(edges, low, high):
-            if inside(middle(piece), polygons[0]) and not any(inside(middle(piece), p) for p in polygons[1:]):
+            place = middle(piece)
+            if all(inside(place, p) for p in kept) and not any(inside(place, p) for p in gone):
                 found.extend(halves(piece))
     return found
 

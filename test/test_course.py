@@ -11,6 +11,7 @@ from golf_sim_ros.physics.effects.wind import LogProfile, PowerProfile, UniformP
 from golf_sim_ros.physics.ground.patch import Patch
 from golf_sim_ros.physics.ground.plane import Plane
 from golf_sim_ros.physics.ground.solid import Cylinder, Sphere
+from golf_sim_ros.physics.ground.water import Water
 from golf_sim_ros.physics.material import PENNER, Restitution
 from golf_sim_ros.share import share
 
@@ -183,6 +184,11 @@ ground:
     assert [(p.length, p.width) for p in course.ground[1:]] == [(4.0, 2.0), (5.0, 2.0), (5.0, 7.0)]
 
 
+def test_water_is_read(load):
+    course = load(PLAIN + 'water: [{polygon: [[3, 0], [5, 0], [5, 2]], level: -0.2}]')
+    assert course.water == (Water(((3.0, 0.0), (5.0, 0.0), (5.0, 2.0)), -0.2),)
+
+
 def test_obstacles_and_zones_are_read(load):
     course = load(PLAIN + """
 zones: [{material: green, polygon: [[3, 0], [5, 0], [5, 2]]}]
@@ -247,7 +253,11 @@ obstacles:
     ('wind_field: x.npz', "wind_field 'x.npz' is not yet supported; leave it out"),
     ('zones: [{material: green}]', "zones[0]: key 'polygon' is missing; needed: material, polygon"),
     ('zones: [{material: gren, polygon: [[0, 0], [1, 0], [1, 1]]}]', "zones[0].material 'gren' is unknown"),
-    ('water: [1]', 'water [1] is not yet supported'),
+    ('water: [1]', 'water[0] 1 must be a mapping'),
+    ('water: {level: 0}', "water {'level': 0} must be a list of ponds"),
+    ('water: [{polygon: [[0, 0], [1, 0], [1, 1]]}]', "water[0]: key 'level' is missing; needed: polygon"),
+    ('water: [{polygon: [[0, 0], [1, 0]], level: 0}]', 'water[0].polygon [[0, 0], [1, 0]] must be a list'),
+    ('water: [{polygon: [[0, 0], [1, 0], [1, 1]], level: .nan}]', 'water[0].level nan must be a number'),
     ('obstacles: [1]', 'obstacles[0] 1 must be a mapping'),
     ('obstacles: [{shape: cone}]', "obstacles[0].shape 'cone' is unknown; known: cylinder, sphere"),
     ('obstacles: [{shape: sphere, radius: 1, material: wood}]', "obstacles[0]: key 'center' is missing"),
@@ -454,7 +464,7 @@ def test_the_shipped_materials_are_those_of_a_golf_course():
 def test_every_shipped_course_loads_and_has_a_hole_on_a_green(name):
     course = load_course(name)
     assert physics.ground_height(course, *course.hole)[1] == 'green'
-    assert physics.ground_height(course, *course.tee)[1] == 'tee'
+    assert physics.ground_height(course, *course.tee)[1] == ('green' if name == 'putting_green' else 'tee')
 
 
 def frame(patch):
@@ -477,6 +487,12 @@ def within(polygon, x, y):
 
 def surface(shape, x, y):
     """Heights of one shape over the points; -inf where it has none."""
+    if isinstance(shape, physics.Mesh):
+        corners, z = shape.vertices[shape.faces], np.full(np.shape(x), -inf)
+        low, high = corners.min((0, 1)), corners.max((0, 1))
+        near = (low[0] <= x) & (x <= high[0]) & (low[1] <= y) & (y <= high[1])
+        z[near] = np.max([of_triangle(triangle, x[near], y[near]) for triangle in corners], axis=0)
+        return z
     center = np.array(shape.point if isinstance(shape, Plane) else shape.center)
     n = np.array(shape.normal)
     z = center[2] - (n[0] * (x - center[0]) + n[1] * (y - center[1])) / n[2]
@@ -490,6 +506,14 @@ def surface(shape, x, y):
     return np.where(there, z, -inf)
 
 
+def of_triangle(corners, x, y):
+    """Heights of one triangle over the points; -inf where it is not."""
+    a, sides = corners[0], corners[1:] - corners[0]
+    share = np.linalg.solve(sides[:, :2].T, np.array([x - a[0], y - a[1]]))
+    there = (share.min(0) >= -1e-12) & (share.sum(0) <= 1 + 1e-12)
+    return np.where(there, a[2] + share.T @ sides[:, 2], -inf)
+
+
 def heights(course, x, y):
     """Heights of the highest surface over the points, worked out apart from the physics."""
     return np.max([surface(shape, x, y) for shape in course.ground], axis=0)
@@ -498,7 +522,7 @@ def heights(course, x, y):
 def outlines(course):
     """Polygons in plan where a patch or a cut ends."""
     for shape in course.ground:
-        yield from shape.cut
+        yield from getattr(shape, 'cut', ())
         if isinstance(shape, Patch):
             _, along, across = frame(shape)
             yield tuple(tuple((np.array(shape.center) + i * shape.length / 2 * along
@@ -527,19 +551,19 @@ def in_sand(course, x, y):
     return np.any([within(pit, x, y) for pit in pits], axis=0)
 
 
-def test_golf_without_friends_has_no_gap_and_no_step_but_the_lips_of_its_bunkers(friends):
+def test_golf_without_friends_has_no_gap_and_no_step_but_at_its_bunkers_and_its_pond(friends):
     # Between these lines the ground is the highest of some planes, and so has no step either.
     for polygon in outlines(friends):
         for places, left, right in steps(friends, polygon):
             assert np.isfinite(left).all() and np.isfinite(right).all()
             step = abs(left - right)
-            is_bunker = len(polygon) == 6
-            allowed = np.isclose(step, 0.25) | np.isclose(step, 0.3) if is_bunker else step < 1e-6
+            lowest, highest = {6: (0.1, 0.2), 7: (1.2, 1.2)}.get(len(polygon), (0.0, 0.0))  # bunkers, pond
+            allowed = (step > lowest - 1e-6) & (step < highest + 1e-6)
             assert allowed.all(), places[~allowed][0]
 
 
 def test_the_step_test_sees_a_gap_of_a_hundredth_of_a_millimetre(friends):
-    number = next(i for i, shape in enumerate(friends.ground) if shape.normal[0] > 0.03)
+    number = next(i for i, shape in enumerate(friends.ground) if getattr(shape, 'normal', (0,))[0] > 0.03)
     ground = list(friends.ground)
     ground[number] = ground[number]._replace(length=ground[number].length - 2e-5)
     course = friends._replace(ground=tuple(ground))
@@ -555,11 +579,12 @@ def test_golf_without_friends_has_ground_everywhere_and_nothing_above_the_rough(
 
 def test_golf_without_friends_slopes_gently_and_has_sand_in_its_bunkers(friends):
     steep = {name: [] for name in KNOWN.split(', ')}
-    for shape in friends.ground:
+    flat = [shape for shape in friends.ground if not isinstance(shape, physics.Mesh)]
+    for shape in flat:
         steep[shape.material.name].append(np.hypot(*shape.normal[:2]) / shape.normal[2])
     assert max(steep['fairway']) < 0.04 and len(steep['fairway']) >= 5
     assert 0.009 < min(steep['green']) and max(steep['green']) < 0.025 and len(steep['green']) >= 4
-    assert max(steep['sand']) == max(steep['tee']) == 0 and len(steep['sand']) == 3
+    assert max(steep['sand']) == max(steep['tee']) == 0 and len(friends.ground) == len(flat) + 3
     x, y = np.meshgrid(np.arange(236, 360, 1.3), np.arange(-24, 40, 0.9))
     sand = in_sand(friends, x, y)
     found = [physics.ground_height(friends, *place)[1] == 'sand' for place in zip(x[sand], y[sand])]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import Course, Material, Patch, Plane, Shot, ground_height, simulate
+from golf_sim_ros.physics import Course, Material, Patch, Plane, Shot, Water, ground_height, simulate
 
 pytest.importorskip('matplotlib')
 from matplotlib.colors import to_rgb  # noqa: E402
@@ -228,3 +228,12 @@ def test_a_png_has_the_size_asked_for(tmp_path, drive, dpi):
     drawing.draw(tmp_path / 'play.png', [drive], COURSE, dpi=dpi)
     high, wide, _ = imread(tmp_path / 'play.png').shape
     assert wide == 12 * dpi and 6 * dpi < high < 14 * dpi
+
+
+def test_water_is_blue_where_it_covers_the_ground_and_no_farther():
+    pond = Water(((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)), -0.2)
+    course = Course((Plane(),), water=(pond,))
+    heights = np.array([[-1.0, -0.1, -1.0]])
+    colors = drawing.ground.flooded(np.full((1, 3, 3), 0.5), course, heights, np.array([0.5, 1.5, 2.5]),
+                                    np.array([[1.0]]))
+    assert colors[0, 0, 2] > colors[0, 0, 0] and (colors[0, 1:] == 0.5).all()

@@ -2,12 +2,14 @@
 """The course under a play: from above, and cut open along the paths."""
 import numpy as np
 
+from ..painted import holds
 from ..physics.model import materials
 from .relief import relief
 
 LIGHT = 2.5     # how much brighter a slope of 1 is that rises towards the right and up
 SHADE = 0.22    # at most so much brighter or darker
 NOTHING = (1.0, 1.0, 1.0)
+WATER, CLEAR = (0.20, 0.45, 0.70), 0.25  # colour of water, and how much of the ground shines through
 
 
 def paint(axes, course, window, pixels):
@@ -30,7 +32,8 @@ def paint(axes, course, window, pixels):
     x = np.arange(window.left, window.right, side) + 0.5 * side
     y = np.arange(window.low, window.high, side) + 0.5 * side
     heights, numbers = relief(course, x, y[:, np.newaxis])
-    axes.imshow(np.clip(tints(course, numbers) * lit(heights, side), 0.0, 1.0), origin='lower',
+    colors = flooded(tints(course, numbers) * lit(heights, side), course, heights, x, y)
+    axes.imshow(np.clip(colors, 0.0, 1.0), origin='lower',
                 extent=(window.left, window.right, window.low, window.high), aspect='auto',
                 interpolation='antialiased', zorder=0)
     return set(numbers.flat) - {-1}
@@ -39,6 +42,15 @@ def paint(axes, course, window, pixels):
 def tints(course, numbers):
     """Colours of materials by number, (..., 3)."""
     return np.array([*(material.color for material in materials(course)), NOTHING])[numbers]
+
+
+def flooded(colors, course, heights, x, y):
+    """`colors` (ny, nx, 3) of a ground with `heights` (ny, nx) over `x`, `y`, blue where water covers it."""
+    x, y = np.meshgrid(x, y)
+    for pond in course.water:
+        wet = holds(pond.polygon, x.ravel(), y.ravel()).reshape(x.shape) & (heights < pond.level)
+        colors[wet] = CLEAR * colors[wet] + (1.0 - CLEAR) * np.array(WATER)
+    return colors
 
 
 def lit(heights, side):

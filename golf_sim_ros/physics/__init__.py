@@ -10,6 +10,7 @@ from .ground.mesh import Mesh
 from .ground.patch import Patch
 from .ground.plane import Plane
 from .ground.solid import Cylinder, Sphere
+from .ground.water import Water
 from .integrators import METHODS
 from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
 from .play import Play, check_hole, ground_height, simulate, simulate_many
@@ -19,8 +20,7 @@ from .world import BallState, Rejected, World
 
 __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'Heightmap',
-    'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile',
-    'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile', 'World', 'check_hole',
-    'ground_height',
-    'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
-    'standard_atmosphere']
+    'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
+    'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile',
+    'Water', 'World', 'check_hole', 'ground_height', 'register_effect', 'rolling_resistance_of_stimp',
+    'simulate', 'simulate_many', 'standard_atmosphere']

@@ -17,14 +17,15 @@ from .effects import blow
 from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
-from .shot import end_shot, keep_highest, tee_off
+from .shot import end_shot, keep_highest, tee_off, tell_gone
+from .splash import drown, emerge, is_over, splash
 from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, HOLED, LAUNCH, LOST, MEETING, OUT, REST, SHOT_ENDS,
-                    SLIP_STOPS, STEP, TIME_LIMIT, moves)
+                    SLIP_STOPS, SPLASH, STEP, TIME_LIMIT, WATER, moves)
 from .together import disperse, enlist
 from .vector import ZERO, along, put, unit, vector
 
 DONE, LOG_FULL = range(2)
-EVENTS_A_BALL = 2  # that one piece's end can log, but for impacts of balls
+EVENTS_A_BALL = 3  # that one piece's end can log, but for impacts of balls
 
 
 @entry
@@ -70,9 +71,15 @@ def resolve(model, balls, i, crowd, log):
     if ending != LAUNCH:
         keep_highest(ball)
         read(ball, now)
+        if ball['water'] > 0:
+            emerge(model.land, ball)
     if ending == LAUNCH:
         launch(model, ball, now)
         others.rouse(crowd, balls, model.land.ball.radius, now)
+    elif ending == SPLASH:
+        splash(model.land, ball, i, now, log)
+    elif ball['water'] > 0 and ending == HIT:
+        drown(ball)
     elif ending == HIT:
         meet(model.land, balls, i, now, crowd, log)
     elif ending == MEETING:
@@ -100,10 +107,15 @@ def finish(model, ball, number, now, log):
     """End the shot of a ball that has stopped, is lost, or has been on its way for too long."""
     if moves(ball['phase']) and is_out(model, ball):
         ball['phase'] = OUT
-        if ball['knocked'] and not ball['playing']:
-            end_shot(ball, number, now, LOST, log)
+        tell_gone(ball, number, now, log)
+    elif is_over(model.land, ball):
+        drown(ball)
     elif ball['phase'] == REST and is_in_hole(model, ball):
         ball['phase'] = HOLED
+    is_lost = ball['phase'] == OUT or ball['phase'] == WATER
+    if is_lost and ball['knocked'] and not ball['playing']:
+        ball['knocked'] = 0
+        end_shot(ball, number, now, LOST, log)
     if ball['playing'] and (not moves(ball['phase']) or ball['ending'] == TIME_LIMIT):
         end_shot(ball, number, now, SHOT_ENDS, log)
 
@@ -126,11 +138,11 @@ def lay(model, balls, i, now, crowd):
 
 @kernel
 def is_out(model, ball):
-    """Whether the ball fell below all ground, or is on the ground outside the bounds."""
+    """Whether the ball fell below all ground, or is on ground or water outside the bounds."""
     ground = model.land.ground
-    if not ball['position'][2] >= ground.lowest - 10.0 * model.land.ball.radius:
+    if ball['water'] == 0 and not ball['position'][2] >= ground.lowest - 10.0 * model.land.ball.radius:
         return True  # not a number, too: whatever went wrong, the shot is over
-    if ball['phase'] == FLIGHT and ball['ending'] != HIT:
+    if ball['phase'] == FLIGHT and ball['ending'] != HIT and ball['ending'] != SPLASH:
         return False
     # On the line itself, where it is heading decides.
     heading = unit(vector(ball['velocity']), ZERO)

@@ -44,6 +44,8 @@ class Course(NamedTuple):
         Polygons that repaint the ground from above, later over earlier.
     obstacles : tuple
         Shapes that stand on the ground and are none: hard, or leaves where the material has a drag.
+    water : tuple of Water
+        Ponds, lakes, burns: level surfaces; each needs ground below it.
     air : Air
     wind_profile : LogProfile, PowerProfile or UniformProfile
     effects : 'auto' or tuple of str
@@ -63,6 +65,7 @@ class Course(NamedTuple):
     bounds: Optional[tuple] = None
     zones: tuple = ()
     obstacles: tuple = ()
+    water: tuple = ()
     air: Air = Air()
     wind_profile: NamedTuple = LogProfile()
     effects: Union[str, tuple] = 'auto'

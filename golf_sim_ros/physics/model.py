@@ -79,7 +79,8 @@ def build(course, records, preset):
 
 def in_flight(records):
     """Those of the effects' `records` that act on a flying ball."""
-    return speaking(records, laws.gravity, laws.air_velocity, laws.acceleration, laws.spin_rate)
+    return speaking(records, laws.gravity, laws.air_velocity, laws.acceleration, laws.spin_rate,
+                    laws.under_water)
 
 
 def speaking(records, *some):
@@ -91,11 +92,12 @@ def ground(course):
     """`Ground` of a course for kernels; ValueError where the hole is in ground that is too uneven."""
     number = {material: i for i, material in enumerate(materials(course))}
     if course.hole is None:
-        return ground_.build(shapes(course), course.zones, course.bounds, None, number)
+        return ground_.build(shapes(course), course.zones, course.bounds, None, number, course.water)
     cup = cup_in(bare_ground(course), *course.hole, materials(course), course.cup)
     bottom = (*course.hole, opening(cup)[-1])
     stick = (Flagstick(bottom, material=course.stick),) if course.flagstick else ()
-    return ground_.build((*shapes(course), cup, *stick), course.zones, course.bounds, opening(cup), number)
+    return ground_.build((*shapes(course), cup, *stick), course.zones, course.bounds, opening(cup), number,
+                         course.water)
 
 
 def bare_ground(course):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The equations of motion: of a ball that flies, and of one that follows ground which is not flat."""
 from ._compile import kernel, shared
-from .effects import flight_rates, pull
+from .effects import flight_rates, pull, sinking
 from .ground import surface
 from .impulse import slip
 from .state import FLIGHT, SLIDE
@@ -12,7 +12,9 @@ STILL = 1e-9  # m/s: slower than this is not moving
 
 @kernel
 def rates(model, ball, position, velocity, spin):
-    """Acceleration and rate of change of spin of a ball, in flight or in contact."""
+    """Acceleration and rate of change of spin of a ball, in flight, under water or in contact."""
+    if ball['water'] > 0:
+        return sinking(model.effects, position, velocity), ZERO
     if ball['phase'] == FLIGHT:
         return flight_rates(model.effects, model.land.ground, position, velocity, spin)
     force, torque, _, _ = following_rates(model.land, ball, position, velocity, spin)

@@ -8,15 +8,18 @@ from .bent import bent_piece
 from .caught import caught_step, is_caught
 from .contact import flat_piece, heading, material_number, settle, stand_on
 from .detect import CAUGHT, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_border, first_contact
+from .dip import first_dip
 from .ground import surface
 from .impact import cross_border
+from .ground.water import water_at
 from .integrators import step
 from .motion import STILL
 from .pile import next_instant
-from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, STEP, TIME_LIMIT, moves
+from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, SPLASH, STEP, TIME_LIMIT, moves
 from .vector import ZERO, along, cross, dot, put, scale, unit, vector
 
 LONGEST_SHOT = 300.0  # s
+SINKING_STEP = 0.02  # s: so often a sinking ball is asked whether it has come far enough
 
 
 @kernel
@@ -56,6 +59,15 @@ def lay_next(model, ball, now):
         ball['ending'] = BORDER
     if until < ball['span'] and ball['ending'] != HIT and ball['ending'] != BORDER:
         ball['ending'] = STEP
+    if ball['water'] > 0:
+        if until > SINKING_STEP:
+            until = SINKING_STEP
+            ball['ending'] = STEP
+    else:
+        until, water = first_dip(model.land.ground.waters, ball, until)
+        if water > 0:
+            ball['ending'] = SPLASH
+            ball['target'] = water
     ball['end'] = now + until
     if ball['piled'] and ball['ending'] == STEP and ball['end'] > next_instant(now) - 1e-9:
         ball['end'] = next_instant(now)  # the same number for all
@@ -97,6 +109,7 @@ def launch(model, ball, now):
     ball['step'] = 0.0
     ball['stalled'] = 0
     ball['piled'] = 0
+    ball['water'] = 0
     ball['tail_end'] = now
     ball['phase'] = FLIGHT
     lift = dot(vector(ball['velocity']), vector(ball['normal']))
@@ -110,7 +123,7 @@ def put_down(model, ball, position, depth):
     """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
 
     Writes position, support and normal; the ball is at rest. Returns whether it touches anything,
-    and how deep [m] it lies in the ground.
+    how deep [m] it lies in the ground, and whether it is in water.
     """
     model = borrowed(model)
     put(ball['position'], position)
@@ -126,7 +139,9 @@ def put_down(model, ball, position, depth):
             put(ball['position'], path.position(ball, time))
     part, normal = surface.touched(model.land.ground, vector(ball['position']), model.land.ball.radius, ZERO)
     stand_on(model.land, ball, part, normal)
-    return part >= 0, surface.depth(model.land.ground, vector(ball['position']), model.land.ball.radius)
+    place = vector(ball['position'])
+    return (part >= 0, surface.depth(model.land.ground, place, model.land.ball.radius),
+            water_at(model.land.ground.waters, place) > 0)
 
 
 @kernel

@@ -104,7 +104,8 @@ def summary(balls, hole, lies):
                             balls['highest'] - balls['struck_at'][:, 2], 0.0)
     told['flight_time'] = np.where(landed, balls['landing'] - balls['struck'], 0.0)
     told['duration'] = balls['ended'] - balls['struck']
-    told['lie'] = [lies[m] if s >= 0 else '' for m, s in zip(balls['material'], balls['support'])]
+    told['lie'] = ['water' if phase == Phase.WATER else lies[m] if s >= 0 else ''
+                   for m, s, phase in zip(balls['material'], balls['support'], balls['phase'])]
     told['landing_speed'] = np.where(landed, np.hypot(level, landing[:, 2]), 0.0)
     told['landing_angle'] = np.where(landed, np.arctan2(-landing[:, 2], level), 0.0)
     told['bounces'], told['position'] = balls['bounces'], balls['position']

@@ -2,7 +2,7 @@
 """What is kept of a shot on its way, for its result."""
 from . import path
 from ._compile import entry, kernel
-from .state import FLIGHT, LAUNCH, REST, moves
+from .state import FLIGHT, GONE, LAUNCH, REST, moves
 from .vector import ZERO, put, vector
 
 
@@ -54,6 +54,24 @@ def end_shot(ball, number, now, kind, log):
     event['time'] = now
     event['ball'] = number
     event['kind'] = kind
+
+
+@kernel
+def tell_gone(ball, number, now, log):
+    """Log that the ball has gone out of bounds."""
+    event = log.events[log.count[0]]
+    log.count[0] += 1
+    event['time'] = now
+    event['ball'] = number
+    event['kind'] = GONE
+    event['material'] = ball['material'] if ball['support'] >= 0 else -1
+    put(event['position'], vector(ball['position']))
+    put(event['normal'], vector(ball['normal']))
+    put(event['velocity_before'], vector(ball['velocity']))
+    put(event['velocity_after'], vector(ball['velocity']))
+    put(event['spin_before'], vector(ball['spin']))
+    put(event['spin_after'], vector(ball['spin']))
+    put(event['impulse'], ZERO)
 
 
 @entry

@@ -36,7 +36,8 @@ class Shot(NamedTuple):
 
 
 # What ends a piece of path. LAUNCH: the ball was put or struck, and its own state counts. MEETING: of balls.
-STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, MEETING = range(8)
+# SPLASH: in water, whose number is the target.
+STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, MEETING, SPLASH = range(9)
 
 NO_PART = -1
 
@@ -49,6 +50,8 @@ BALL = np.dtype([
     # in a pile: whether it is, for how many steps it has been calm, what holds it (1 for the ground, 2
     # for a ball, summed), rolling resistance [m/s]; asleep: whether it leans on a ball
     ('piled', 'i8'), ('calm', 'i8'), ('held', 'i8'), ('braking', 'f8'), ('leans', 'i8'),
+    # number of the water that it is in, from 1; 0: none
+    ('water', 'i8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
     # and of the spin; what ends it and on which part of the ground, or at which other ball
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
@@ -83,7 +86,7 @@ def restored(values):
 
 
 # What happened, for the world to report.
-BOUNCE, SHOT_ENDS, BUMP, LOST = range(4)
+BOUNCE, SHOT_ENDS, BUMP, LOST, WET, GONE = range(6)
 
 # Of a BUMP `material` is the number of the other ball.
 EVENT = np.dtype([

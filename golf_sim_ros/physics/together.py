@@ -19,7 +19,7 @@ from .material import restitution
 from .pair import UP, place_at, velocity_at
 from .path import spin as spin_at
 from .shot import keep_highest
-from .state import FLIGHT, HOLED, moves
+from .state import FLIGHT, HOLED, STEP, moves
 from .vector import ZERO, add, along, dot, length, put, scale, sub, unit, vector
 
 TOGETHER = 1e-9  # m: what is that near is touched at the same instant
@@ -31,10 +31,11 @@ MOST_MEMBERS = 64
 
 @kernel
 def bring(ball, now):
-    """Bring a ball to `now`, where its piece ends. Writes motion, end."""
+    """Bring a ball to `now`, where its piece ends before its time. Writes motion, end, ending."""
     if not moves(ball['phase']):
         return
     ball['end'] = now
+    ball['ending'] = STEP
     keep_highest(ball)
     time = now - ball['begin']
     place = place_at(ball, now)

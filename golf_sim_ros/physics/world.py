@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A course with balls on it, in time."""
 import re
-from math import inf, isfinite
+from math import cos, inf, isfinite, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -15,11 +15,12 @@ from .ground import surface
 from .piece import LONGEST_SHOT, put_down
 from .report import KINDS, collision, objection, result, three
 from .shot import tee_off
-from .state import (BALL, BOUNCE, BUMP, FLIGHT, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL, SLIDE, STEP,
-                    Phase, new_log, plain, restored)
+from .state import (BALL, BOUNCE, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
+                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, new_log, plain, restored)
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
+CLEAR = 2.2  # radii from centre to centre, of a ball that is dropped beside another
 FALL = 1e4  # m: how far down ground is looked for
 RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
 PHASES = tuple(Phase)
@@ -69,6 +70,7 @@ class World:
         self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
         self._materials = model_.material_names(course)
         self._log, self._events, self._now, self._shots = new_log(), [], 0.0, 0
+        self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
         self._rebuild()
         self._crowd = scratch(len(self.names), 'ball_ball' in self.effects_on)
@@ -162,7 +164,7 @@ class World:
         Raises
         ------
         ValueError
-            Not finite, no ground at (x, y), or inside the ground.
+            Not finite, no ground at (x, y), inside the ground, or in water.
         """
         ball = self._ball(name)
         position = tuple(map(float, position))
@@ -181,11 +183,14 @@ class World:
         depth = 0.0
         if len(position) == 2:
             position, depth = self._above(*position)
-        touches, inside = put_down(self._model, ball, position, depth)
+        touches, inside, wet = put_down(self._model, ball, position, depth)
         if depth and not touches:
             raise ValueError(f'no ground at x {position[0]:g}, y {position[1]:g}')
         if inside > surface.SAME_HEIGHT:
             raise ValueError(f'position {position} lies {inside:.3g} m deep in the ground')
+
+        if wet:
+            raise ValueError(f'position {position} lies in water')
 
     def _above(self, x, y):
         """Place over all ground at x, y, and how far down from there ground may lie."""
@@ -268,6 +273,9 @@ class World:
             self._events += self._told(start)
             if status != LOG_FULL:
                 break
+        for number in self._lost:
+            self._drop(number, until)
+        self._lost.clear()
 
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
@@ -280,19 +288,42 @@ class World:
                                         self._materials[event['material']]))
             elif event['kind'] == BUMP:
                 events.append(collision(event, time, name, 'ball', self.names[event['material']]))
-            elif event['kind'] == LOST:
-                self._drop(ball)
-            else:
+            elif event['kind'] == WET:
+                events.append(collision(event, time, name, 'water', 'water'))
+            elif event['kind'] == GONE:
+                lie = self._materials[event['material']] if event['material'] >= 0 else ''
+                events.append(collision(event, time, name, 'out_of_bounds', lie))
+            elif event['kind'] == SHOT_ENDS:
                 events.append(result(ball, name, time, self.course.hole, self._materials))
-                if ball['phase'] == OUT:
-                    self._drop(ball)
+            if event['kind'] == LOST or event['kind'] == SHOT_ENDS and ball['phase'] in (WATER, OUT):
+                self._lost.append(int(event['ball']))
         self._log.count[0] = 0
         return events
 
-    def _drop(self, ball):
-        """Put a lost ball back where it was struck."""
-        put_down(self._model, ball, three(ball['struck_at']), 0.0)
+    def _drop(self, number, now):
+        """Put a lost ball back where it was struck, or beside a ball that lies there by `now`.
+
+        What moves begins new pieces, or it would not see the ball in its way; piles look often enough.
+        """
+        ball = self._balls[number]
         ball['phase'], ball['end'] = REST, inf
+        ball['playing'] = ball['knocked'] = ball['water'] = ball['leans'] = ball['piled'] = 0
+        for x, y, z, lower in spots(three(ball['struck_at']), self._model.land.ball.radius):
+            if self._is_free(number, (x, y, z)):
+                touches, inside, wet = put_down(self._model, ball, (x, y, z + lower), 2.0 * lower)
+                if lower == 0.0 or touches and inside <= surface.SAME_HEIGHT and not wet:
+                    break
+        else:
+            put_down(self._model, ball, three(ball['struck_at']), 0.0)
+        moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL)) & (self._balls['piled'] == 0)
+        self._balls['end'][moving], self._balls['ending'][moving] = now, STEP
+
+    def _is_free(self, number, place):
+        """Whether no ball but that of `number` lies so near to `place` that the two would overlap."""
+        others = np.delete(self._balls, number)
+        others = others[others['phase'] != HOLED]
+        apart = np.linalg.norm(others['position'] - place, axis=1)
+        return not (apart < 2.0 * self._model.land.ball.radius - surface.SAME_HEIGHT).any()
 
     def state(self):
         """All that decides how the play goes on, as numbers, text, lists and dicts; see `restore`."""
@@ -334,6 +365,20 @@ class World:
         self._balls['support'] = NO_PART
         self._tee_up()
         return aborted
+
+
+def spots(place, radius):
+    """Where a dropped ball is put: its `place`, or the first spot around it that is free.
+
+    Yields x, y, z, and how far above and below that ground may lie.
+    """
+    x, y, z = place
+    yield x, y, z, 0.0
+    for ring in range(1, 20):
+        for turn in range(6 * ring):
+            angle = turn * pi / (3 * ring)
+            away = CLEAR * radius * ring
+            yield x - away * cos(angle), y + away * sin(angle), z, 2.0 * radius
 
 
 def checked_names(balls):

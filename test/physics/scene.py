@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a ball's place and motion on planes and patches mean, worked out apart from the physics."""
+"""What a ball's place and motion on planes, patches and meshes mean, worked out apart from the physics."""
 from functools import lru_cache
 from math import cos, inf, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from golf_sim_ros.physics import Plane
+from golf_sim_ros.physics import Mesh, Plane
 
 GRAVITY = 9.80665
 
@@ -42,9 +42,20 @@ def sides_of(shape):
     return ahead, np.cross(normal, ahead)
 
 
+def gaps_to_triangles(corners, point):
+    """Distances of `point` from triangles with `corners`, (n, 3, 3)."""
+    to, sides = point - corners, np.roll(corners, -1, axis=1) - corners
+    normals = np.cross(sides[:, 0], sides[:, 1])
+    over = (np.cross(sides, to) * normals[:, np.newaxis]).sum(2).min(1) >= 0
+    heights = abs((to[:, 0] * normals).sum(1)) / np.linalg.norm(normals, axis=1)
+    t = np.clip((to * sides).sum(2) / (sides * sides).sum(2), 0, 1)
+    to_sides = np.linalg.norm(to - t[..., np.newaxis] * sides, axis=2).min(1)
+    return np.where(over, heights, to_sides)
+
+
 @lru_cache
 def faces(ground):
-    """`Faces` of a course's ground."""
+    """`Faces` of planes and patches."""
     solid = np.array([isinstance(shape, Plane) for shape in ground])
     return Faces(
         np.array([shape.point if plane else shape.center for shape, plane in zip(ground, solid)], float),
@@ -83,9 +94,12 @@ def inside(outline, x, y):
 def gaps(course, point):
     """Distances of a ball at `point` from each shape and rim: inf where it has been cut away.
 
-    Under a plane they are negative. One-sided shapes come last, after the rims.
+    Under a plane they are negative. Meshes and rims come after the shapes, one-sided shapes last.
     """
-    all_faces = faces(course.ground)
+    ground = tuple(shape for shape in course.ground if not isinstance(shape, Mesh))
+    meshes = [gaps_to_triangles(np.asarray(mesh.vertices)[mesh.faces], np.asarray(point))
+              for mesh in course.ground if isinstance(mesh, Mesh)]
+    all_faces = faces(ground)
     d = np.asarray(point, float) - all_faces.centers
     on_sides = np.einsum('ijk,ik->ij', all_faces.sides, d)
     heights = np.einsum('ij,ij->i', all_faces.normals, d)
@@ -96,11 +110,11 @@ def gaps(course, point):
     for i in np.flatnonzero(away < 2 * course.ball.radius):
         if any(inside(cut, *feet[i, :2]) for cut in all_faces.cuts[i]):
             away[i] = inf
-    starts, ends = rims(course.ground)
+    starts, ends = rims(ground)
     way = ends - starts
     t = np.clip(((point - starts) * way).sum(1) / (way * way).sum(1), 0, 1)
     to_rims = np.linalg.norm(point - starts - t[:, np.newaxis] * way, axis=1)
-    both = np.concatenate([away[~all_faces.one_sided], to_rims, away[all_faces.one_sided]])
+    both = np.concatenate([away[~all_faces.one_sided], *meshes, to_rims, away[all_faces.one_sided]])
     return both - course.ball.radius, all_faces.one_sided.sum()
 
 

@@ -3,13 +3,16 @@
 from math import cos, hypot, pi, sin
 
 from hypothesis import given, strategies
+import numpy as np
 import pytest
+from rclpy.serialization import serialize_message
 from visualization_msgs.msg import Marker
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.markers import course_markers, HOLE_DIAMETER, MARGIN, outskirts
 from golf_sim_ros.messages import header
-from golf_sim_ros.physics import Course, Cylinder, ground_height, Material, Patch, Plane, Sphere, World
+from golf_sim_ros.physics import (Course, Cylinder, ground_height, Heightmap, Material, Patch, Plane, Sphere,
+                                  Water, World)
 from golf_sim_ros.physics.ground.cup import DEPTH
 from golf_sim_ros.play_markers import CONTACTS, Scene, Trail, TRAIL
 from golf_sim_ros.slabs import inside, triangles
@@ -101,11 +104,50 @@ def test_a_planes_cut_is_open_and_the_plane_is_drawn_around_the_course():
     assert covers(pieces, 30.0 + MARGIN - 1, 0.1) and not covers(pieces, 30.0 + MARGIN + 1, 0.1)
 
 
+def test_a_zone_is_shown_in_its_colour_where_there_is_ground_and_later_ones_over_earlier():
+    turf, zones = Plane(material=GRASS, cut=(PIT,)), ((SAND, SQUARE), (GRASS, PIT), (SAND, PIT[:3]))
+    found = surfaces(course_markers(Course((turf,), zones=zones), 'course'))
+    assert total([[corner[:2] for corner in piece] for piece in found[0.9, 0.8, 0.6]]) == pytest.approx(100.0)
+    assert covers(found[0.9, 0.8, 0.6], 5.1, 5.2) and not covers(found[0.1, 0.5, 0.1], 5.1, 5.2)
+    under = surfaces(course_markers(Course((Plane(material=GRASS),), zones=zones), 'course'))
+    assert covers(under[0.9, 0.8, 0.6], 27.0, -3.0) and covers(under[0.1, 0.5, 0.1], 22.0, 3.0)
+
+
+def test_a_height_map_is_shown_at_its_heights_and_painted_with_zones():
+    heights = np.add.outer(0.1 * np.arange(11), 0.02 * np.arange(21))
+    course = Course((Heightmap(heights, (0.0, 0.0), 1.0, GRASS),), tee=(1.0, 1.0), zones=((SAND, SQUARE),))
+    found = surfaces(course_markers(course, 'course'))
+    for color in (0.1, 0.5, 0.1), (0.9, 0.8, 0.6):
+        assert total([[corner[:2] for corner in piece] for piece in found[color]]) == pytest.approx(100.0)
+        for x, y, z in (corner for piece in found[color] for corner in piece):
+            assert z == pytest.approx(0.02 * x + 0.1 * y)
+    assert covers(found[0.9, 0.8, 0.6], 9.3, 9.6) and covers(found[0.1, 0.5, 0.1], 10.3, 9.6)
+
+
+def test_a_large_height_map_is_thinned_out_and_its_outline_stays():
+    course = Course((Heightmap(np.zeros((301, 402)), material=GRASS),), tee=(5.0, 5.0))
+    array = course_markers(course, 'course')
+    assert len(serialize_message(array)) < 5e6
+    corners = np.array([c for piece in surfaces(array)[0.1, 0.5, 0.1] for c in piece])
+    assert corners.min(0).tolist() == [0.0, 0.0, 0.0] and corners.max(0).tolist() == [401.0, 300.0, 0.0]
+
+
 def test_where_a_patch_lies_in_the_plane_only_the_patch_is_shown():
     ground = (Plane(material=GRASS), Patch((10.0, 0.0, 0.0), length=4.0, width=4.0, material=SAND))
     found = surfaces(course_markers(Course(ground), 'course'))
     assert covers(found[0.9, 0.8, 0.6], 10.1, 0.1)
     assert not covers(found[0.1, 0.5, 0.1], 10.1, 0.1) and covers(found[0.1, 0.5, 0.1], 13.1, 0.1)
+
+
+def test_water_is_blue_over_its_polygon_at_its_level_and_what_is_below_shines_through():
+    course = Course((Plane(material=GRASS, cut=(PIT,)),), water=(Water(PIT, -0.2), Water(SQUARE, 0.5)))
+    array = course_markers(course, 'course')
+    made, = (marker for marker in array.markers if marker.ns == 'water')
+    corners = [(point.x, point.y, point.z) for point in made.points]
+    pieces = [corners[i:i + 3] for i in range(0, len(corners), 3)]
+    assert total(pieces) == pytest.approx(200.0) and 0.3 < made.color.a < 0.9
+    assert made.color.b > max(made.color.r, made.color.g)
+    assert {(x > 15.0, z) for x, _, z in corners} == {(True, -0.2), (False, 0.5)}
 
 
 def test_an_upright_patch_and_an_upright_plane_are_shown():
@@ -124,7 +166,7 @@ def test_the_shipped_course_is_few_markers_of_every_material_with_stamp_0(course
     assert len({(marker.ns, marker.id) for marker in array.markers}) == len(array.markers)
     for marker in array.markers:
         assert marker.header.frame_id == 'links' and marker.header.stamp.sec == 0
-        assert marker.color.a == 1.0 and marker.scale.x > 0.0
+        assert marker.color.a == (0.6 if marker.ns == 'water' else 1.0) and marker.scale.x > 0.0
 
 
 def test_over_the_shipped_course_what_is_highest_is_what_is_shown(course):

@@ -121,6 +121,16 @@ def flight_rates(effects, ground, position, velocity, spin):
 
 
 @kernel
+def sinking(effects, position, velocity):
+    """Acceleration of a ball under water."""
+    weight = pull(effects, position)
+    force = weight
+    for effect in literal_unroll(effects):
+        force = add(force, laws.under_water(effect, weight, velocity))
+    return force
+
+
+@kernel
 def longest_step(effects, position, velocity):
     """Longest step of flight [s] that can't overlook any effect."""
     longest = inf

@@ -56,6 +56,12 @@ def gravity(effect, position):
 
 
 @generic
+def under_water(effect, weight, velocity):
+    """Acceleration [m/s^2] by `effect` of a ball under water, beside its `weight`: that by gravity."""
+    return ZERO
+
+
+@generic
 def contact_normal(effect, normal, velocity, softness):
     """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
     return normal

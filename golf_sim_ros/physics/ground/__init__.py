@@ -13,13 +13,14 @@ import numpy as np
 
 from .polygon import Circle, polygons, sides
 from .surface import BORDER, Ground
+from .water import waters
 
 KINDS = [module for module in
          (importlib.import_module(f'{__name__}.{m.name}') for m in pkgutil.iter_modules(__path__))
          if hasattr(module, 'SHAPES')]
 
 
-def build(shapes, zones, bounds, hole, material_number):
+def build(shapes, zones, bounds, hole, material_number, water=()):
     """`Ground` of `shapes`, ground and obstacles.
 
     Parameters
@@ -30,6 +31,7 @@ def build(shapes, zones, bounds, hole, material_number):
     hole : (x, y, radius, lowest, highest, bottom) or None
         Circle that is cut into ground at those heights, and how far down; see `cup.opening`.
     material_number : dict of Material to int
+    water : sequence of Water
 
     Raises
     ------
@@ -46,10 +48,11 @@ def build(shapes, zones, bounds, hole, material_number):
     outlines = [o for kind, own in by_kind for s in own for o in kind.plan(s)]
     outlines += [outline for _, outline in zones]
     heights = [kind.heights(s) for kind, own in by_kind for s in own]
+    heights += [(pond.level, pond.level) for pond in water]
     return Ground(kinds, _borders(outlines, [bounds] if bounds else []),
                   polygons([outline for _, outline in zones]),
                   np.array([material_number[material] for material, _ in zones], np.int64),
-                  polygons([bounds] if bounds else []), np.array(hole or (), float),
+                  polygons([bounds] if bounds else []), np.array(hole or (), float), waters(water),
                   float(min((low for low, _ in heights), default=0.0)),
                   float(max((high for _, high in heights), default=0.0)))
 

@@ -11,6 +11,8 @@ import numpy as np
 
 from .._compile import kernel, shared
 
+AT_ONCE = 64  # rows of cells that are bounded at once: on a map of 1000 x 1000 that takes some 50 MB
+
 GRID = np.dtype([
     ('origin', 'f8', 2), ('spacing', 'f8'), ('nx', 'i8'), ('ny', 'i8'), ('first_node', 'i8'),
     ('first_cell', 'i8'), ('first_wall', 'i8'), ('number', 'i8'), ('material', 'i8'), ('gentle', 'i8'),
@@ -48,25 +50,28 @@ def bounds(at_nodes, spacing):
     In order: least height, greatest height, greatest upward curvature (0 where there is none), greatest
     curvature of either sign. They hold for sure: they are those of Bernstein's coefficients.
     """
-    rows = [_row_bounds(at_nodes[j], at_nodes[j + 1], spacing) for j in range(len(at_nodes) - 1)]
-    return np.array(rows)
+    return np.concatenate([_bounds(at_nodes[j:j + AT_ONCE + 1], spacing)
+                           for j in range(0, len(at_nodes) - 1, AT_ONCE)])
 
 
-def _row_bounds(below, above, spacing):
-    # Bezier's ordinates along x of heights and of slopes along y, then of both along y: (nx - 1, 4, 4).
+def _bounds(at, spacing):
+    # Bezier's ordinates along x of heights and of slopes along y, then both along y: (4, 4, ny - 1, nx - 1).
     def along_x(value, slope):
-        return np.stack((value[:-1], value[:-1] + slope[:-1] / 3, value[1:] - slope[1:] / 3, value[1:]), -1)
+        left, right = np.s_[:, :-1], np.s_[:, 1:]
+        third = slope / 3
+        return np.stack((value[left], value[left] + third[left], value[right] - third[right], value[right]))
 
-    low, high = along_x(below[:, 0], below[:, 1]), along_x(above[:, 0], above[:, 1])
-    rise, fall = along_x(below[:, 2], below[:, 3]) / 3, along_x(above[:, 2], above[:, 3]) / 3
-    points = np.stack((low, low + rise, high - fall, high), -1)
+    heights, slopes_up = along_x(at[..., 0], at[..., 1]), along_x(at[..., 2], at[..., 3]) / 3
+    low, high = heights[:, :-1], heights[:, 1:]
+    rise, fall = slopes_up[:, :-1], slopes_up[:, 1:]
+    points = np.stack((low, low + rise, high - fall, high))
     area = spacing * spacing
     xx = 6 * np.diff(points, 2, axis=1) / area
-    yy = 6 * np.diff(points, 2, axis=2) / area
-    xy = np.abs(9 * np.diff(np.diff(points, axis=1), axis=2) / area).max((1, 2))
-    up = _greatest(xx.max((1, 2)), yy.max((1, 2)), xy)
-    down = _greatest((-xx).max((1, 2)), (-yy).max((1, 2)), xy)
-    return np.stack((points.min((1, 2)), points.max((1, 2)), np.maximum(up, 0), np.maximum(up, down)), -1)
+    yy = 6 * np.diff(points, 2, axis=0) / area
+    xy = np.abs(9 * np.diff(np.diff(points, axis=1), axis=0) / area).max((0, 1))
+    up = _greatest(xx.max((0, 1)), yy.max((0, 1)), xy)
+    down = _greatest(-xx.min((0, 1)), -yy.min((0, 1)), xy)
+    return np.stack((points.min((0, 1)), points.max((0, 1)), np.maximum(up, 0), np.maximum(up, down)), -1)
 
 
 def _greatest(xx, yy, xy):

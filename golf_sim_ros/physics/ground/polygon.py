@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Polygons in plan: a table of corners, and which of them belong together."""
+from math import inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +33,28 @@ def polygons(outlines):
 def sides(outline):
     """Pairs of neighbouring corners, the last with the first."""
     return zip(outline, tuple(outline[1:]) + tuple(outline[:1]))
+
+
+@kernel
+def beside(table, i, x, y):
+    """Distance [m] of the point from polygon `i`, 0 inside."""
+    if inside(table, i, x, y):
+        return 0.0
+    best = inf
+    first = table.first[i]
+    last = table.first[i + 1]
+    j = last - 1
+    for k in range(first, last):
+        ax = table.corners[j, 0]
+        ay = table.corners[j, 1]
+        ex = table.corners[k, 0] - ax
+        ey = table.corners[k, 1] - ay
+        t = min(max(((x - ax) * ex + (y - ay) * ey) / (ex * ex + ey * ey), 0.0), 1.0)
+        dx = x - ax - t * ex
+        dy = y - ay - t * ey
+        best = min(best, sqrt(dx * dx + dy * dy))
+        j = k
+    return best
 
 
 @kernel

@@ -15,6 +15,7 @@ from ..vector import ZERO, along, dot, scale
 from . import laws
 from .flat import SAME_HEIGHT
 from .polygon import Polygons, inside
+from .water import Waters
 
 NO_GROUND = -1e300
 LOOK_AHEAD = 1e-7  # m: on a border, what a ball is on is decided this far ahead
@@ -30,8 +31,8 @@ class Ground(NamedTuple):
     ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
     surface may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
     ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
-    greatest height of the rim, height of the bottom; all ground but tilted planes lies between
-    ``lowest`` and ``highest``.
+    greatest height of the rim, height of the bottom; ``waters`` lie over it all; all ground and water but
+    tilted planes lies between ``lowest`` and ``highest``.
     """
 
     kinds: tuple
@@ -40,6 +41,7 @@ class Ground(NamedTuple):
     zone_materials: np.ndarray
     bounds: Polygons
     hole: np.ndarray
+    waters: Waters
     lowest: float
     highest: float
 

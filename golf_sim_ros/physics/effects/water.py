@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Water: drag and buoyancy of a ball under water."""
+from math import pi
+from typing import NamedTuple
+
+from ..splash import ADDED_MASS, WATER_DENSITY
+from ..vector import add, length, scale, sub
+from . import laws
+
+# Of a smooth sphere at Reynolds numbers of 1e3 to 2e5, those of a sinking golf ball being about 2e4
+# (Schlichting, Boundary-Layer Theory). That dimples hardly count there is an estimate.
+DRAG_COEFFICIENT = 0.45
+
+
+class Water(NamedTuple):
+    """A ball of velocity v is accelerated by `share` times (1 - `buoyancy`) g - `push` |v| v.
+
+    `push` is rho A cd / (2 m) [1/m]; `buoyancy` the water's density over the ball's; `share` the ball's
+    mass over its mass with the water that it carries along.
+    """
+
+    push: float
+    buoyancy: float
+    share: float
+
+
+@laws.under_water.register(Water)
+def _under_water(effect, weight, velocity):
+    felt = scale(1.0 - effect.buoyancy, weight)
+    drag = scale(-effect.push * length(velocity), velocity)
+    return sub(scale(effect.share, add(felt, drag)), weight)
+
+
+def record(scene):
+    """Record for `scene`."""
+    ball = scene.course.ball
+    buoyancy = 4.0 / 3.0 * pi * ball.radius ** 3 * WATER_DENSITY / ball.mass
+    push = 0.5 * WATER_DENSITY * DRAG_COEFFICIENT * pi * ball.radius ** 2 / ball.mass
+    return Water(float(push), float(buoyancy), float(1.0 / (1.0 + ADDED_MASS * buoyancy)))
+
+
+def idle(scene):
+    """Why `scene` can do without: on dry land."""
+    return '' if scene.course.water else 'no water'
+
+
+def dormant(scene):
+    """Record where there is no water: no ball ever feels it, and a course with some compiles nothing."""
+    return record(scene)

@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Water: a level surface over a polygon in plan. It is no ground: nothing stands on it.
+
+A ball is in it when its centre is. So a ball that lies in a puddle plays on, and what rolls down a bank
+is in the water where it is half under.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from .._compile import kernel
+from .polygon import Polygons, beside, polygons
+
+
+class Water(NamedTuple):
+    """A pond: corners (x, y) of its `polygon`, height [m] of its surface, the `level`.
+
+    The polygon may reach into the banks: where ground is higher than the level, there is no water.
+    """
+
+    polygon: tuple
+    level: float
+
+
+class Waters(NamedTuple):
+    """All water of a course: outlines in plan, and the ``levels`` [m] of their surfaces."""
+
+    outlines: Polygons
+    levels: np.ndarray
+
+
+def waters(ponds):
+    """`Waters` of `Water` records."""
+    return Waters(polygons([pond.polygon for pond in ponds]), np.array([pond.level for pond in ponds], float))
+
+
+@kernel
+def water_at(waters, place):
+    """Number, from 1, of the water that a ball with its centre at `place` is in; 0: none."""
+    for i in range(len(waters.levels)):
+        if place[2] < waters.levels[i] and beside(waters.outlines, i, place[0], place[1]) == 0.0:
+            return i + 1
+    return 0

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bytes of the files that a course consists of.
+
+Heights and corners are rounded, so that they do not depend on the last digit of anybody's sine.
+"""
+from io import BytesIO
+
+import numpy as np
+
+HEIGHTS_TO = 4  # decimals of a metre
+CORNERS_TO = 3
+STL_TRIANGLE = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('attribute', '<u2')])
+
+
+def npy(heights):
+    """.npy file of `heights` [m], (ny, nx), in single precision."""
+    file = BytesIO()
+    np.save(file, rounded(heights).astype('<f4'))
+    return file.getvalue()
+
+
+def rounded(heights):
+    """`heights` as they are written."""
+    return np.round(heights, HEIGHTS_TO) + 0.0  # + 0.0: there is no -0
+
+
+def stl(corners):
+    """Binary STL file of triangles, (n, 3, 3) [m]."""
+    triangles = np.zeros(len(corners), STL_TRIANGLE)
+    triangles['corners'] = np.round(corners, CORNERS_TO) + 0.0
+    return bytes(80) + len(corners).to_bytes(4, 'little') + triangles.tobytes()
+
+
+def place(numbers):
+    """Coordinates as a YAML list."""
+    return '[' + ', '.join(f'{round(float(n), 2) + 0.0:g}' for n in numbers) + ']'
+
+
+def polygon(corners):
+    """Polygon as a YAML list."""
+    return '[' + ', '.join(map(place, corners)) + ']'
+
+
+def rectangle(low, high):
+    """Corners of the rectangle between two (x, y)."""
+    return [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]

@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Make the shipped courses' files: ``python tools/make_courses.py [FOLDER]``, by default config/courses.
+
+The same bytes come out every time. `golf_without_friends.yaml` is written by hand; its bunkers are made here.
+"""
+from pathlib import Path
+import sys
+
+from courses import friends_bunkers, links, playground, putting_green
+
+SHIPPED = Path(__file__).resolve().parent.parent / 'config' / 'courses'
+
+
+def main(folder=SHIPPED):
+    """Write all files into `folder`."""
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    for module in (friends_bunkers, links, playground, putting_green):
+        for name, content in module.files().items():
+            (Path(folder) / name).write_bytes(content)
+
+
+if __name__ == '__main__':
+    main(*sys.argv[1:])
