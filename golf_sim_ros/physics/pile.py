@@ -26,6 +26,8 @@ SWEEPS = 40
 DONE = 1e-5  # m/s: a sweep that changes less is the last
 SHIFTS = 6  # sweeps over positions
 PUSHED = 1e-3  # m/s of approach wake a sleeper
+CREEP = 0.02  # m/s: what moves slower in a pile is damped, for the sweeps never quite end
+DAMPED = 0.9
 CALM = 4e-3  # m/s
 CALM_STEPS = 50
 FREE = 1.0  # m/s: faster than this a ball flies on its own
@@ -110,7 +112,7 @@ def hold_pile(land, balls, now, crowd):
             bring(balls[i], now)
     find_contacts(land, balls, crowd, now)
     for sweep in range(SWEEPS):
-        if press_once(land, balls, crowd) <= DONE:
+        if press_once(land, balls, crowd, sweep % 2 == 1) <= DONE:
             break
     for k in range(crowd.count[MEMBERS]):
         balls[crowd.members[k]]['braking'] = 0.0
@@ -129,13 +131,16 @@ def hold_pile(land, balls, now, crowd):
 def find_contacts(land, balls, crowd, now):
     """Contacts of the members, with what is near and what they may reach. Writes contacts, members."""
     radius = land.ball.radius
+    fastest = 0.0
+    for k in range(crowd.count[MEMBERS]):
+        fastest = max(fastest, length(vector(balls[crowd.members[k]]['velocity'])))
+    reach = SLACK + 2.0 * PILE_STEP * fastest
     k = 0
     while k < crowd.count[MEMBERS]:
         i = crowd.members[k]
         ball = balls[i]
         here = vector(ball['position'])
         find_ground(land, ball, i, crowd)
-        reach = SLACK + 2.0 * PILE_STEP * length(vector(ball['velocity']))
         low, high = surface.around(here, radius + reach)
         at = next_node(crowd, 0, low, high)
         while at >= 0:
@@ -194,11 +199,12 @@ def set_contact(row, gap, share, material, record):
 
 
 @kernel
-def press_once(land, balls, crowd):
+def press_once(land, balls, crowd, backward):
     """One sweep over all contacts. Writes motion and impulses; returns the greatest change [m/s]."""
     most = 0.0
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
+    count = crowd.count[CONTACTS]
+    for k in range(count):
+        row = crowd.contacts[count - 1 - k if backward else k]
         room = max(row['ahead'], 0.0) / PILE_STEP
         wanted = row['push'] - row['mass'] * (rate_of(balls, row) + room)
         push = max(wanted, 0.0)
@@ -208,8 +214,7 @@ def press_once(land, balls, crowd):
             give(land, balls, row, scale(change, vector(row['normal'])))
             most = max(most, abs(change) / row['mass'])
         if push > 0.0:
-            k = land.ball.inertia
-            grip = row['mass'] * k / (1.0 + k)
+            grip = row['mass'] * land.ball.inertia / (1.0 + land.ball.inertia)
             rub = along(vector(row['rub']), -grip, sliding_of(land, balls, row))
             size = length(rub)
             if size > row['friction'] * push:
@@ -263,6 +268,8 @@ def let_go(land, ball, now):
     """Let a member rest, roll away, fly away, or stay in the pile. Writes motion and phase."""
     speed = length(vector(ball['velocity']))
     left = max(speed - ball['braking'], 0.0)
+    if left < CREEP and ball['held'] > 1:
+        left *= DAMPED
     if speed > 0.0:
         put(ball['velocity'], scale(left / speed, vector(ball['velocity'])))
         put(ball['spin'], scale(left / speed, vector(ball['spin'])))
