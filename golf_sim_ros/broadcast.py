@@ -82,7 +82,9 @@ class Broadcast:
     def tell_collision(self, collision):
         """A contact, as JSON and as a point."""
         self.collisions.publish(messages.collision_json(collision))
-        self.contacts[collision.ball].publish(messages.contact(self.head(collision.time), collision))
+        both = [collision.ball] + [collision.with_] * (collision.kind == 'ball')
+        for name in both:
+            self.contacts[name].publish(messages.contact(self.head(collision.time), collision))
         self.scene.contacts.append(collision.position)
 
     def tell_entry(self, text):

@@ -53,6 +53,8 @@ def advance(model, balls, until, crowd, log):
         for k in range(crowd.count[MEMBERS]):
             finish(model, balls[crowd.members[k]], crowd.members[k], now, log)
             lay(model, balls, crowd.members[k], now, crowd)
+        for k in range(crowd.count[MEMBERS]):
+            look_out(balls, crowd.members[k], model.land.ball.radius, now, crowd)
         disperse(crowd)
     for i in range(len(balls)):
         read(balls[i], until)
@@ -122,18 +124,23 @@ def finish(model, ball, number, now, log):
 
 @kernel
 def lay(model, balls, i, now, crowd):
-    """Lay ball `i`'s next piece, up to where it meets another ball. Writes piece and crowd."""
+    """Lay ball `i`'s next piece. Writes piece and crowd."""
+    lay_next(model, balls[i], now)
+    crowd.ends[i] = balls[i]['end']
+    others.note(crowd, balls, i, model.land.ball.radius)
+
+
+@kernel
+def look_out(balls, i, radius, now, crowd):
+    """End ball `i`'s piece where it meets another ball. Writes end, ending, target."""
     ball = balls[i]
-    lay_next(model, ball, now)
-    radius = model.land.ball.radius
     if moves(ball['phase']):
         time, other, hit = others.meeting(crowd, balls, i, radius, now)
         if time < ball['end'] or hit:
             ball['end'] = time
             ball['ending'] = MEETING if hit else STEP
             ball['target'] = other
-    crowd.ends[i] = ball['end']
-    others.note(crowd, balls, i, radius)
+            crowd.ends[i] = time
 
 
 @kernel

@@ -10,7 +10,7 @@ from . import model as model_
 from ._compile import stamp
 from .accuracy import preset
 from .advance import LOG_FULL, advance
-from .crowd import scratch
+from .crowd import AGE, scratch
 from .ground import surface
 from .piece import LONGEST_SHOT, put_down
 from .report import KINDS, collision, objection, result, three
@@ -83,6 +83,7 @@ class World:
 
     def _tee_up(self):
         """Put all balls side by side on the tee."""
+        self._balls['phase'], self._balls['end'] = HOLED, inf  # nowhere, until they are there
         middle = 0.5 * (len(self.names) - 1)
         for i, name in enumerate(self.names):
             self.place(name, (self.course.tee[0], self.course.tee[1] + APART * (i - middle)))
@@ -164,7 +165,7 @@ class World:
         Raises
         ------
         ValueError
-            Not finite, no ground at (x, y), inside the ground, or in water.
+            Not finite, no ground at (x, y), inside the ground or another ball, or in water.
         """
         ball = self._ball(name)
         position = tuple(map(float, position))
@@ -174,6 +175,8 @@ class World:
             raise ValueError(f'position {position}, velocity {velocity} or spin {spin} is not finite')
         trial = ball.copy()
         self._put_down(trial, position)
+        if not self._is_free(self.names.index(name), three(trial['position'])):
+            raise ValueError(f'position {position} is taken by another ball')
         self._settle_clock()
         self._balls[self.names.index(name)] = trial
         ball['playing'] = ball['knocked'] = 0
@@ -188,7 +191,6 @@ class World:
             raise ValueError(f'no ground at x {position[0]:g}, y {position[1]:g}')
         if inside > surface.SAME_HEIGHT:
             raise ValueError(f'position {position} lies {inside:.3g} m deep in the ground')
-
         if wet:
             raise ValueError(f'position {position} lies in water')
 
@@ -320,6 +322,8 @@ class World:
 
     def _is_free(self, number, place):
         """Whether no ball but that of `number` lies so near to `place` that the two would overlap."""
+        if 'ball_ball' not in self.effects_on:
+            return True
         others = np.delete(self._balls, number)
         others = others[others['phase'] != HOLED]
         apart = np.linalg.norm(others['position'] - place, axis=1)
@@ -343,6 +347,7 @@ class World:
         self.set_wind(state['wind'])
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
+        self._crowd.count[AGE] = len(self.names)  # where balls are near each other is found out anew
 
     def reset(self):
         """Put all balls back to the start.

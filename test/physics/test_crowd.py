@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Several balls: impacts of two, of many at one instant, and balls that lean on each other."""
+from itertools import permutations
+
+import numpy as np
+import pytest
+
+from golf_sim_ros.physics import Ball, Course, Material, Phase, Plane, Restitution, World
+
+RADIUS = Ball().radius
+IDEAL = Material('ideal', Restitution(1.0))
+CLOTH = Material('cloth', Restitution(0.5), 0.0, 0.2, 0.2, 0.01)
+FLOOR = Material('floor', Restitution(0.5), 0.0, 0.4, 0.3, 0.02, 0.001)
+
+
+def table(material, balls, restitution=1.0, friction=0.0):
+    """World of `balls` far away from the origin on a level plane."""
+    course = Course((Plane(material=material),), tee=(0.0, 500.0),
+                    ball=Ball(restitution=restitution, friction=friction), effects=('gravity', 'ball_ball'))
+    return World(course, balls)
+
+
+def rolling(speed):
+    """Velocity and spin of a ball that rolls along x."""
+    return {'velocity': (speed, 0.0, 0.0), 'spin': (0.0, speed / RADIUS, 0.0)}
+
+
+def motion(world, names):
+    """Positions and velocities of balls, two (n, 3) arrays."""
+    return (np.array([world[name].position for name in names]),
+            np.array([world[name].velocity for name in names]))
+
+
+def cradle(order, restitution):
+    """Velocities along x after the ball that `order` names first has hit the row of the others."""
+    world = table(IDEAL, len(order), restitution)
+    names = [world.names[i] for i in order]
+    for k, name in enumerate(names[1:]):
+        world.place(name, (2 * RADIUS * k, 0.0, RADIUS))
+    world.place(names[0], (-0.3, 0.0, RADIUS), velocity=(2.0, 0.0, 0.0))
+    world.advance(0.5)
+    return motion(world, names)[1][:, 0]
+
+
+@pytest.mark.parametrize('order', list(permutations(range(5)))[::17])
+def test_a_row_of_five_passes_all_the_speed_on_whatever_their_order(order):
+    assert cradle(order, 1.0) == pytest.approx([0, 0, 0, 0, 2.0], abs=1e-9)
+
+
+def test_a_row_of_twenty_passes_all_the_speed_on():
+    order = np.random.default_rng(4).permutation(20)
+    assert cradle(order, 1.0) == pytest.approx([0.0] * 19 + [2.0], abs=1e-9)
+
+
+def test_each_impact_of_a_row_that_gives_less_back_passes_half_of_1_plus_e_on():
+    assert cradle(range(5), 0.9)[-1] == pytest.approx(2.0 * 0.95 ** 4, abs=1e-9)
+
+
+def rack(order, friction):
+    """Positions, velocities and collisions after a break head-on, in the order of their places."""
+    world = table(CLOTH, 16, 0.9, friction)
+    names = [world.names[i] for i in order]
+    places = [(row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS) for row in range(5) for k in range(row + 1)]
+    for name, place in zip(names[1:], places):
+        world.place(name, (*place, RADIUS))
+    world.place(names[0], (-0.3, 0.0, RADIUS), **rolling(5.0))
+    collisions = world.advance(0.1)
+    return *motion(world, names), collisions
+
+
+MIRRORED = [0] + [1 + row * (row + 1) // 2 + row - k for row in range(5) for k in range(row + 1)]
+
+
+@pytest.mark.parametrize('friction', [0.0, 0.2])
+def test_a_rack_broken_head_on_is_symmetric_and_does_not_know_its_order(friction):
+    places, velocities, collisions = rack(range(16), friction)
+    others, their_velocities, _ = rack(np.random.default_rng(7).permutation(16), friction)
+    assert np.abs(places - others).max() < 1e-9
+    assert np.abs(velocities - their_velocities).max() < 1e-9
+    mirror = np.array([1, -1, 1])
+    assert np.abs(places[MIRRORED] * mirror - places).max() < 1e-9
+    assert np.abs(velocities[MIRRORED] * mirror - velocities).max() < 1e-9
+    assert any(c.kind == 'ball' for c in collisions)
+    apart = np.linalg.norm(places[:, None] - places[None], axis=2) + np.eye(16)
+    assert apart.min() > 2 * RADIUS - 1e-6
+
+
+def test_a_break_without_friction_keeps_the_momentum():
+    world = table(IDEAL, 16, 0.9)
+    places = [(row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS) for row in range(5) for k in range(row + 1)]
+    for name, place in zip(world.names[1:], places):
+        world.place(name, (*place, RADIUS))
+    world.place(world.names[0], (-0.3, 0.01, RADIUS), velocity=(5.0, 0.0, 0.0))
+    world.advance(0.5)
+    velocities = motion(world, world.names)[1]
+    assert velocities.sum(0) == pytest.approx([5.0, 0.0, 0.0], abs=1e-9)
+    assert (velocities ** 2).sum() < 25.0
+
+
+@pytest.mark.parametrize('friction', [0.05, 1.0])
+@pytest.mark.parametrize('cut', [0.3, 0.8])
+def test_an_oblique_impact_throws_and_turns_as_its_closed_form_says(friction, cut):
+    world = table(IDEAL, ('cue', 'object'), 0.8, friction)
+    place = 2 * RADIUS * np.array([-np.sqrt(1 - cut * cut), -cut, 0.0])
+    world.place('object', (0.0, 0.0, RADIUS))
+    world.place('cue', (place[0] - 0.1, place[1], RADIUS), velocity=(3.0, 0.0, 0.0), spin=(0.0, 0.0, 20.0))
+    world.advance(0.1)
+    mass, normal = world.course.ball.mass, place / (2 * RADIUS)
+    velocity, spin = np.array([3.0, 0.0, 0.0]), np.array([0.0, 0.0, 20.0])
+    pushed = -(1 + 0.8) * mass / 2 * (velocity @ normal)
+    sliding = velocity - (velocity @ normal) * normal - RADIUS * np.cross(spin, normal)
+    size = np.linalg.norm(sliding)
+    rub = -min(friction * pushed, mass / 7 * size) * sliding / size
+    impulse = pushed * normal + rub
+    turn = -RADIUS * np.cross(normal, impulse) / (0.4 * mass * RADIUS * RADIUS)
+    assert world['cue'].velocity == pytest.approx(velocity + impulse / mass, abs=1e-9)
+    assert world['object'].velocity == pytest.approx(-impulse / mass, abs=1e-9)
+    assert world['cue'].spin == pytest.approx(spin + turn, abs=1e-7)
+    assert world['object'].spin == pytest.approx(turn, abs=1e-7)
+
+
+def test_a_rolling_ball_that_hits_an_equal_one_keeps_two_sevenths_and_gives_five():
+    grip = Material('grip', Restitution(0.0), 0.0, 0.3, 0.3, 0.0)
+    world = table(grip, ('cue', 'object'))
+    world.place('object', (0.0, 0.0, RADIUS))
+    world.place('cue', (-0.2, 0.0, RADIUS), **rolling(1.4))
+    world.advance(3.0)
+    assert world['cue'].velocity[0] == pytest.approx(0.4, abs=1e-9)
+    assert world['object'].velocity[0] == pytest.approx(1.0, abs=1e-9)
+
+
+def test_balls_pass_through_each_other_where_ball_ball_is_off():
+    course = Course((Plane(material=IDEAL),), tee=(0.0, 500.0), effects=('gravity',))
+    world = World(course, ('red', 'blue'))
+    world.place('blue', (0.0, 0.0, RADIUS))
+    world.place('red', (-0.2, 0.0, RADIUS), velocity=(2.0, 0.0, 0.0))
+    assert world.advance(0.5) == []
+    assert world['red'].velocity == pytest.approx((2.0, 0.0, 0.0)) and world['blue'].velocity == (0.0, 0.0, 0.0)
+
+
+def test_a_flying_ball_hits_another_in_the_air_and_both_are_told():
+    world = table(FLOOR, ('red', 'blue'), 0.85, 0.2)
+    world.place('blue', (10.0, 0.0, RADIUS))
+    world.place('red', (0.0, 0.0, RADIUS))
+    world.strike('blue', (-10.0, 0.0, 10.0))
+    world.strike('red', (10.0, 0.0, 10.0))
+    events = world.advance(200.0)
+    bumps = [event for event in events if getattr(event, 'kind', '') == 'ball']
+    assert len(bumps) == 1 and {bumps[0].ball, bumps[0].with_} == {'red', 'blue'}
+    assert bumps[0].position[2] > 1.0
+    assert sorted(event.ball for event in events if hasattr(event, 'status')) == ['blue', 'red']
+
+
+def test_a_place_that_another_ball_has_is_refused():
+    world = table(FLOOR, ('red', 'blue'))
+    world.place('blue', (0.0, 0.0))
+    with pytest.raises(ValueError, match='taken by another ball'):
+        world.place('red', (0.01, 0.0))
+
+
+def test_two_balls_dropped_on_each_other_come_to_rest_apart():
+    world = table(FLOOR, ('under', 'over'), 0.9, 0.2)
+    world.place('under', (0.0, 0.0))
+    world.place('over', (0.002, 0.0, 0.2), velocity=(0.0, 0.0, -0.1))
+    world.advance(20.0)
+    places, velocities = motion(world, world.names)
+    assert not velocities.any() and world['under'].phase == world['over'].phase == Phase.REST
+    assert np.linalg.norm(places[0] - places[1]) > 2 * RADIUS - 1e-6
+    assert places[:, 2] == pytest.approx([RADIUS, RADIUS], abs=1e-9)
+
+
+def test_several_balls_play_on_from_a_state_as_they_would_have():
+    world = table(FLOOR, 3, 0.85, 0.2)
+    for k, name in enumerate(world.names):
+        world.place(name, (0.3 * k, 0.0))
+    world.strike(world.names[0], (3.0, 0.0, 0.0))
+    world.advance(0.05)
+    other = table(FLOOR, 3, 0.85, 0.2)
+    other.restore(world.state())
+    for each in (world, other):
+        each.advance(10.0)
+    assert np.array_equal(motion(world, world.names), motion(other, world.names))
