@@ -315,6 +315,24 @@ def test_two_balls_are_struck_apart_and_fly_at_the_same_time(start, make_golfer)
     assert len(red.results_of(CHIP)) == 1
 
 
+def test_the_balls_of_two_players_collide_and_each_has_one_result(start, make_golfer):
+    start('sim_node', *parameters('/duel', balls="['red', 'blue']")).wait_for(READY)
+    red, blue = make_golfer('/duel', 'red'), make_golfer('/duel', 'blue')
+    towards = round(place(blue.poses[-1])[1] - place(red.poses[-1])[1], 3)
+    strikes = (0.0, 4.0 * towards, 0.0), (0.0, -3.0 * towards, 0.0)
+    red.strike(strikes[0])
+    blue.strike(strikes[1])
+    for golfer, strike in zip((red, blue), strikes):
+        result = wait_until(lambda: golfer.results_of(strike), 'its result came')[0]
+        assert result['status'] == 'at_rest'
+    bump = [c for c in red.impacts() if c['kind'] == 'ball'][0]
+    assert {bump['ball'], bump['with']} == {'red', 'blue'}
+    assert bump['impulse'][1] * bump['normal'][1] > 0.0
+    wait_until(lambda: red.contacts and blue.contacts, 'both balls were told the contact')
+    red.heartbeat()
+    assert len(red.results_of(strikes[0])) == len(blue.results_of(strikes[1])) == 1
+
+
 def test_a_namespace_and_a_remapped_topic_appear_in_the_line_to_paste(start):
     process = start('sim_node', *parameters('/mapped'), '-r', 'shot:=hit')
     assert '--once /mapped/hit geometry_msgs' in process.wait_for(READY)
