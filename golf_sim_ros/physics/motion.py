@@ -4,7 +4,7 @@ from ._compile import kernel, shared
 from .effects import flight_rates, pull, sinking
 from .ground import surface
 from .impulse import slip
-from .state import FLIGHT, SLIDE
+from .state import FLIGHT, ROLL, SLIDE
 from .vector import ZERO, add, along, cross, dot, length, scale, sub, unit, vector
 
 STILL = 1e-9  # m/s: slower than this is not moving
@@ -94,6 +94,8 @@ def following_rates(land, ball, place, velocity, spin):
         friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
     force = along(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
+    if ball['phase'] == ROLL:  # the spin goes with the motion: resistance brakes it, too
+        torque = along(scale(1.0 / r, cross(normal, force)), about, turn)
     if material['pivot_friction'] > 0.0 and not tail:
         torque = along(torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal)
     return force, torque, pressing, needed

@@ -106,6 +106,22 @@ def test_a_ball_in_a_bowl_swings_at_5_7_of_a_sliding_one():
     assert period == pytest.approx(2 * pi / sqrt(5 * G / (7 * (curve - RADIUS))), rel=5e-3)
 
 
+def test_a_rolling_ball_has_the_spin_of_rolling_at_every_instant_and_not_only_where_a_piece_ends():
+    land = surface(lambda x, y: 0.05 * np.sin(0.7 * x) + 0.04 * np.cos(0.5 * y))
+    world = World(Course((land,)), effects=GRAVITY)
+    world.place('ball', (-5.0, 1.0))
+    world.strike('ball', (3.0, 0.5, 0.0))
+    rolled = 0
+    while world.moving:
+        world.advance(0.02)
+        ball = world['ball']
+        if ball.phase == Phase.ROLL:
+            speed = sqrt(np.dot(ball.velocity, ball.velocity))
+            assert RADIUS * sqrt(np.dot(ball.spin, ball.spin)) == pytest.approx(speed, rel=2e-3, abs=2e-3)
+            rolled += 1
+    assert rolled > 50
+
+
 @pytest.mark.parametrize('share, flies', [(0.98, False), (1.02, True)])
 def test_a_ball_leaves_a_crest_where_gravity_no_longer_bends_its_path(share, flies):
     curve = 2.0
