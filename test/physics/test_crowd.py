@@ -135,7 +135,8 @@ def test_balls_pass_through_each_other_where_ball_ball_is_off():
     world.place('blue', (0.0, 0.0, RADIUS))
     world.place('red', (-0.2, 0.0, RADIUS), velocity=(2.0, 0.0, 0.0))
     assert world.advance(0.5) == []
-    assert world['red'].velocity == pytest.approx((2.0, 0.0, 0.0)) and world['blue'].velocity == (0.0, 0.0, 0.0)
+    assert world['red'].velocity == pytest.approx((2.0, 0.0, 0.0))
+    assert world['blue'].velocity == (0.0, 0.0, 0.0)
 
 
 def test_a_flying_ball_hits_another_in_the_air_and_both_are_told():

@@ -167,7 +167,7 @@ def test_effects_not_asked_for_are_off_and_say_so():
 
 
 def test_an_unknown_effect_is_named_with_the_known_ones():
-    with pytest.raises(ValueError, match="'rain' is unknown; known: auto, drag, gravity"):
+    with pytest.raises(ValueError, match="'rain' is unknown; known: auto, ball_ball, drag"):
         World(level(TURF), effects=('gravity', 'rain'))
 
 

@@ -7,6 +7,7 @@ from driving_range import GRAVITY, HARD, random_shots
 from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics import Course, Heightmap, Material, Phase, Plane, Restitution, World, simulate_many
+from golf_sim_ros.physics._compile import entry
 from golf_sim_ros.physics.ground import heightmap, laws
 from golf_sim_ros.physics.ground.bicubic import nodes
 import numpy as np
@@ -17,6 +18,18 @@ import pytest
 GREEN = Material('green', Restitution(0.4), 0.0, 0.4, 0.35, 0.055, 0.003)
 IDEAL = Material('ideal', Restitution(0.5), 0.0, 2.0, 2.0, 0.0, 0.0)
 MANY = int(os.environ.get('GOLF_SIM_SHOTS', '200'))
+
+
+@entry
+def top(kind, x, y):
+    """Highest ground of a kind; Python can call it."""
+    return laws.top(kind, x, y)
+
+
+@entry
+def nearest(kind, part, point):
+    """Distance of a part of a kind and direction from there; Python can call it."""
+    return laws.nearest(kind, part, point)
 
 
 def surface(height, material=GREEN, spacing=0.5, low=(-10, -10), high=(10, 10)):
@@ -84,9 +97,9 @@ def test_nearest_is_what_brute_force_finds():
         x = -4 + 0.5 * (column + np.linspace(0, 1, 41))
         y = -4 + 0.5 * (row + np.linspace(0, 1, 41))
         point = np.array((x[0], y[0], 0.5)) + rng.uniform((-0.5, -0.5, 0.8), (1, 1, 2))
-        z = np.array([[laws.top(kind, a, b)[0] for a in x] for b in y[:1]])
+        z = np.array([[top(kind, a, b)[0] for a in x] for b in y[:1]])
         squares = ((x - point[0])[np.newaxis] ** 2 + (y - point[1])[:, np.newaxis] ** 2 + (z - point[2]) ** 2)
-        distance, normal = laws.nearest(kind, row * grid['nx'] + column, tuple(point))
+        distance, normal = nearest(kind, row * grid['nx'] + column, tuple(point))
         brute = sqrt(squares.min())
         assert brute - 0.01 <= distance <= brute + 1e-3  # from afar a second hollow may be missed by a hair
         assert np.linalg.norm(normal) == pytest.approx(1, abs=1e-12)
@@ -159,14 +172,14 @@ def test_nothing_tunnels_through_a_steep_map():
         world = World(course, effects=GRAVITY, accuracy='sketch')
         way = rng.normal(size=3) * (1, 1, rng.choice([1, 0.02]))
         axis = rng.normal(size=3)
-        world.place('ball', (x, y, laws.top(kind, x, y)[0] + 0.1 + rng.uniform(0, 1.9)),
+        world.place('ball', (x, y, top(kind, x, y)[0] + 0.1 + rng.uniform(0, 1.9)),
                     rng.uniform(0, 120) * way / np.linalg.norm(way),
                     rng.uniform(0, 2000) * axis / np.linalg.norm(axis))
         for _ in range(30):
             world.advance(0.02)
             bx, by, bz = world['ball'].position
             if max(abs(bx), abs(by)) < 4:
-                assert bz > laws.top(kind, bx, by)[0] + 0.5 * RADIUS, (world.time, world['ball'])
+                assert bz > top(kind, bx, by)[0] + 0.5 * RADIUS, (world.time, world['ball'])
 
 
 def test_a_ball_stays_outside_the_walls_of_a_map():

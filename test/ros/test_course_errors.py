@@ -10,12 +10,13 @@ COURSES = {
     'unknown key': ('format: 1\nground: ' + GROUND + '\ntea: [0, 0]', ["'tea'", 'tee']),
     'wrong type': ('format: 1\ntee: far\nground: ' + GROUND, ['tee', "'far'", 'numbers']),
     'unknown material': ('format: 1\nground: [{shape: plane, material: gras}]',
-                         ['ground[0].material', "'gras'", 'fairway, green, rough, sand']),
+                         ['ground[0].material', "'gras'", 'fairway, flagstick, green']),
     'no ground under the tee': (
         'format: 1\ntee: [9, 0]\nground: [{shape: patch, center: [0, 0, 0], length: 2, width: 2,'
         ' material: green}]', ['tee', '[9.0, 0.0]', 'ground']),
-    'shape to come': ('format: 1\nground: [{shape: heightmap, heights: a.npy}]',
-                      ['ground[0].shape', 'heightmap', 'plane']),
+    'height map that is not there': (
+        'format: 1\nground: [{shape: heightmap, heights: a.npy, spacing: 1, material: green}]',
+        ['ground[0].heights', 'a.npy', 'No such file']),
     'not YAML': ('format: 1\nground: [', []),
     'missing key': ('ground: ' + GROUND, ["'format'"]),
 }
