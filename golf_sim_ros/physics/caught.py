@@ -23,7 +23,7 @@ MANY_STALLS = 20
 CAUGHT_STEP = 2e-4  # s at most
 SINK = 2e-7  # m: by so much may acceleration drive a ball in, in a step
 SWEEPS = 50
-AT_REST = 2e-5  # m/s after a step: far less than gravity gives in one
+AT_REST = 1e-4  # m/s after a step: far less than the 2e-3 that gravity gives in one
 WALL = 1e-3  # least part of gravity that must press for a ball to come to rest on a surface
 
 
