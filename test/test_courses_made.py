@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 SCRIPT = Path(__file__).resolve().parent.parent / 'tools' / 'make_courses.py'
-MANY = int(os.environ.get('GOLF_SIM_SHOTS', '200'))
+MANY = int(os.environ.get('GOLF_SIM_SHOTS', '50'))
 DROP = 12.0  # m: higher than all ground and trees
 LONGEST = 300.0  # s
 ENDS = {physics.Phase.REST, physics.Phase.OUT, physics.Phase.WATER, physics.Phase.HOLED}

@@ -16,6 +16,7 @@ from .contact import material_of
 from .ground import surface
 from .impulse import Bond, friction, slip, take
 from .material import restitution
+from .motion import STILL
 from .pair import UP, place_at, velocity_at
 from .path import spin as spin_at
 from .shot import keep_highest
@@ -339,8 +340,8 @@ def sliding_of(land, balls, row):
 
 @kernel
 def approaching(balls, crowd):
-    """Number of contacts that approach."""
+    """Number of contacts that approach: not those of what a ball rolls on, but for rounding."""
     found = 0
     for n in range(crowd.count[CONTACTS]):
-        found += rate_of(balls, crowd.contacts[n]) < 0.0
+        found += rate_of(balls, crowd.contacts[n]) < -STILL
     return found

@@ -13,7 +13,7 @@ from oracles import RADIUS
 import pytest
 from scene import energy
 
-PUTTS = int(os.environ.get('RANDOM_SHOTS', 1000)) // 20
+PUTTS = int(os.environ.get('RANDOM_SHOTS', 300)) // 20
 GREEN = Material('green', PENNER, 0.0, 0.45, 0.40, rolling_resistance_of_stimp(10), 0.002, 1.0)
 SOON = 1e-4  # m before the rim
 FAR = 0.3  # m from the hole: what gets there is not in it

@@ -12,7 +12,7 @@ from golf_sim_ros.physics import (Course, LogProfile, Material, Patch, Phase, Pl
                                   World, ground_height, simulate_many)
 from scene import depth, energy, touches
 
-SHOTS = int(os.environ.get('RANDOM_SHOTS', 1000))  # 10000 for the whole lot
+SHOTS = int(os.environ.get('RANDOM_SHOTS', 300))  # 10000 for the whole lot
 WATCHED = SHOTS // 10  # of them, tick by tick
 TICK = 0.02  # s
 LIFT = 2e-5  # J/kg: what putting a ball exactly on its surface, 1e-6 m higher at most, may give it

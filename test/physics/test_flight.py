@@ -200,9 +200,8 @@ def test_sidespin_to_the_left_curves_left():
 @few
 @given(shots, st.tuples(*[st.floats(-200, 200)] * 2, st.floats(-20, 20)))
 def test_a_shifted_course_shifts_the_path(shot, move):
-    here = simulate(hilly(), Shot(shot[:3], shot[3:]), effects=EVERYTHING, accuracy='reference', rate=20.0)
-    there = simulate(hilly(move), Shot(shot[:3], shot[3:]), effects=EVERYTHING, accuracy='reference',
-                     rate=20.0)
+    here = simulate(hilly(), Shot(shot[:3], shot[3:]), effects=EVERYTHING, rate=20.0)
+    there = simulate(hilly(move), Shot(shot[:3], shot[3:]), effects=EVERYTHING, rate=20.0)
     assert_same_path(here, there, lambda places: places + move)
 
 
@@ -211,9 +210,9 @@ def test_a_shifted_course_shifts_the_path(shot, move):
 def test_a_turned_course_turns_the_path(shot, turn):
     matrix = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
     assume(np.hypot(*shot[:2]) > 1e-3)  # what is struck straight up has its sides told from the x axis
-    here = simulate(hilly(), Shot(shot[:3], shot[3:]), effects=EVERYTHING, accuracy='reference', rate=20.0)
+    here = simulate(hilly(), Shot(shot[:3], shot[3:]), effects=EVERYTHING, rate=20.0)
     there = simulate(hilly(turn=turn), Shot(matrix @ shot[:3], matrix @ shot[3:]), effects=EVERYTHING,
-                     accuracy='reference', rate=20.0)
+                     rate=20.0)
     assert_same_path(here, there, lambda places: places @ matrix.T)
 
 

@@ -17,7 +17,7 @@ import pytest
 
 GREEN = Material('green', Restitution(0.4), 0.0, 0.4, 0.35, 0.055, 0.003)
 IDEAL = Material('ideal', Restitution(0.5), 0.0, 2.0, 2.0, 0.0, 0.0)
-MANY = int(os.environ.get('GOLF_SIM_SHOTS', '200'))
+MANY = int(os.environ.get('GOLF_SIM_SHOTS', '60'))
 
 
 @entry

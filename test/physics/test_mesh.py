@@ -13,7 +13,7 @@ import numpy as np
 from oracles import RADIUS
 import pytest
 
-SHOTS = int(os.environ.get('MESH_SHOTS', 300))  # at the sheet that nothing may pass
+SHOTS = int(os.environ.get('MESH_SHOTS', 100))  # at the sheet that nothing may pass
 SIDE = 6.0  # m from the middle of a floor to its sides
 
 

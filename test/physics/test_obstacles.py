@@ -11,7 +11,7 @@ from oracles import RADIUS
 import pytest
 from scene import energy
 
-SHOTS = int(os.environ.get('RANDOM_SHOTS', 1000)) // 10  # 100,000 for the whole lot: RANDOM_SHOTS=1000000
+SHOTS = int(os.environ.get('RANDOM_SHOTS', 300)) // 10  # 100,000 for the whole lot: RANDOM_SHOTS=1000000
 WOOD = Material('wood', Restitution(0.45), 0.0, 0.45, 0.4, 0.05, 0.002)
 LEAVES = Material('leaves', drag=0.25)
 IDEAL = Material('ideal', Restitution(1.0))

@@ -10,7 +10,7 @@ from oracles import RADIUS
 import pytest
 from scipy.integrate import solve_ivp
 
-SHOTS = int(os.environ.get('RANDOM_SHOTS', 1000)) // 10
+SHOTS = int(os.environ.get('RANDOM_SHOTS', 300)) // 10
 GRAVITY = 9.80665
 TURF = Material('turf', Restitution(0.4), 0.0, 0.4, 0.4, 0.1)
 POND = ((10.0, -5.0), (40.0, -5.0), (40.0, 5.0), (10.0, 5.0))
