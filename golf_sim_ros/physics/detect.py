@@ -25,7 +25,7 @@ from .vector import add, along, dot, length, sub, vector
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
 NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
-PILE_NEAR = 5e-5  # m: the same in a pile
+PILE_NEAR = 5e-5  # m: the same in a pile, of balls too
 SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 RISING = 1e-12  # m/s: more than the rounding error of a rate, and less than a nanosecond's acceleration

@@ -3,12 +3,11 @@
 from . import others, path
 from ._compile import kernel, shared
 from .crowd import Crowd, next_node
-from .detect import MOST_STEPS, TANGENTIAL, TOUCH, box, safe_advance
+from .detect import MOST_STEPS, PILE_NEAR, TANGENTIAL, TOUCH, box, safe_advance
 from .state import HOLED, REST, moves
 from .vector import ZERO, dot, length, sub, unit, vector
 
 UP = (0.0, 0.0, 1.0)
-HELD = 5e-5  # m: a sleeper that near is held by the pile
 
 
 @kernel
@@ -81,7 +80,7 @@ def is_held(ball, other, radius, now):
     if other['piled']:
         return True
     gap, _, _ = gap_between(ball, other, radius, now)
-    return other['phase'] == REST and gap < HELD
+    return other['phase'] == REST and gap < PILE_NEAR
 
 
 @others.meeting.register(Crowd)

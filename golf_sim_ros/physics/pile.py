@@ -14,6 +14,7 @@ from ._compile import kernel, shared
 from .caught import MANY_STALLS, is_caught, presses
 from .contact import material_of, settle, stand_on
 from .crowd import CONTACTS, MEMBERS, Crowd, next_node
+from .detect import PILE_NEAR
 from .ground import surface
 from .pair import UP, place_at, velocity_at
 from .state import FLIGHT, HOLED, NO_PART, REST, SLIDE, moves
@@ -21,7 +22,6 @@ from .together import bring, enlist, give, is_new, new_contact, rate_of, sliding
 from .vector import ZERO, along, dot, length, put, scale, sub, unit, vector
 
 PILE_STEP = 1.0 / 512.0  # s; a power of two, so that instants are the same for all
-SLACK = 5e-5  # m: what is nearer than this touches
 SWEEPS = 40
 DONE = 1e-5  # m/s: a sweep that changes less is the last
 SHIFTS = 6  # sweeps over positions
@@ -57,14 +57,14 @@ def pile_up(ball):
 
 @shared
 def leans_on_a_ball(balls, crowd, i, radius, now):
-    """Whether another ball is within SLACK of ball `i`."""
+    """Whether another ball is within PILE_NEAR of ball `i`."""
     here = vector(balls[i]['position'])
-    low, high = surface.around(here, radius + SLACK)
+    low, high = surface.around(here, radius + PILE_NEAR)
     at = next_node(crowd, 0, low, high)
     while at >= 0:
         j = crowd.nodes[at]['ball']
         if j != i and balls[j]['phase'] != HOLED and (
-                length(sub(here, place_at(balls[j], now))) - 2.0 * radius <= SLACK):
+                length(sub(here, place_at(balls[j], now))) - 2.0 * radius <= PILE_NEAR):
             return True
         at = next_node(crowd, at + 1, low, high)
     return False
@@ -91,14 +91,14 @@ def _rouse(crowd, balls, radius, now):
         if balls[i]['phase'] == REST:
             continue
         here = vector(balls[i]['position'])
-        low, high = surface.around(here, radius + 2.0 * SLACK)
+        low, high = surface.around(here, radius + 2.0 * PILE_NEAR)
         at = next_node(crowd, 0, low, high)
         while at >= 0:
             j = crowd.nodes[at]['ball']
             at = next_node(crowd, at + 1, low, high)
             other = balls[j]
             if crowd.places[j] < 0 and other['phase'] == REST and other['leans'] and (
-                    length(sub(here, vector(other['position']))) - 2.0 * radius <= 2.0 * SLACK):
+                    length(sub(here, vector(other['position']))) - 2.0 * radius <= 2.0 * PILE_NEAR):
                 enlist(crowd, j)
                 pile_up(other)
 
@@ -134,7 +134,7 @@ def find_contacts(land, balls, crowd, now):
     fastest = 0.0
     for k in range(crowd.count[MEMBERS]):
         fastest = max(fastest, length(vector(balls[crowd.members[k]]['velocity'])))
-    reach = SLACK + 2.0 * PILE_STEP * fastest
+    reach = PILE_NEAR + 2.0 * PILE_STEP * fastest
     k = 0
     while k < crowd.count[MEMBERS]:
         i = crowd.members[k]
@@ -173,12 +173,12 @@ def find_ground(land, ball, i, crowd):
     """Contacts of a member with the ground. Writes contacts."""
     begin = crowd.count[CONTACTS]
     place = vector(ball['position'])
-    low, high = surface.around(place, land.ball.radius + SLACK)
+    low, high = surface.around(place, land.ball.radius + PILE_NEAR)
     part = surface.next_part(land.ground, 0, low, high)
     while part >= 0:
         distance, normal = surface.nearest(land.ground, part, place)
         gap = distance - land.ball.radius
-        if gap <= SLACK and is_new(crowd, begin, normal) and surface.touchable(land.ground, part, place):
+        if gap <= PILE_NEAR and is_new(crowd, begin, normal) and surface.touchable(land.ground, part, place):
             row = new_contact(crowd, i, -1, part, normal)
             if row >= 0:
                 material = material_of(land, ball, part, normal)
@@ -227,7 +227,7 @@ def press_once(land, balls, crowd, backward):
 @kernel
 def hold_up(land, balls, row):
     """Let a contact that presses hold its balls. Writes held, braking, and what they stand on."""
-    if row['push'] <= 0.0 and row['ahead'] > SLACK:
+    if row['push'] <= 0.0 and row['ahead'] > PILE_NEAR:
         return
     ball = balls[row['a']]
     normal = vector(row['normal'])
