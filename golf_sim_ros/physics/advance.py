@@ -9,7 +9,7 @@ import numpy as np
 
 from . import bump, pair, pile  # noqa: F401  (they say what balls do to each other)
 from . import others
-from ._compile import borrowed, entry, kernel
+from ._compile import borrowed, entry, kernel, shared
 from .caught import hold, is_caught
 from .contact import settle
 from .crowd import MEMBERS, first_due
@@ -34,10 +34,12 @@ def advance(model, balls, until, crowd, log):
 
     Returns DONE, or LOG_FULL when `log` must be emptied before going on.
     """
-    model = borrowed(model)
-    balls = borrowed(balls)
-    crowd = borrowed(crowd)
-    log = borrowed(log)
+    return run(borrowed(model), borrowed(balls), until, borrowed(crowd), borrowed(log))
+
+
+@shared
+def run(model, balls, until, crowd, log):
+    """`advance`, of borrowed records."""
     for i in range(len(balls)):
         crowd.ends[i] = balls[i]['end']
     others.prepare(crowd, balls, model.land.ball.radius)
@@ -171,10 +173,13 @@ def play_all(model, ball, strikes, gusts, crowd, log):
     `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
     the strike, the first 0, and the wind from then on; `crowd` and `log` are scratch.
     """
+    model = borrowed(model)
+    crowd = borrowed(crowd)
+    log = borrowed(log)
     ends = np.empty(len(strikes), ball.dtype)
     for i in range(len(strikes)):
         ends[i] = ball[0]
-        one = ends[i:i + 1]
+        one = borrowed(ends[i:i + 1])
         put(one[0]['velocity'], vector(strikes[i, 0:3]))
         put(one[0]['spin'], vector(strikes[i, 3:6]))
         tee_off(one[0], 0.0)
@@ -183,7 +188,7 @@ def play_all(model, ball, strikes, gusts, crowd, log):
         while one[0]['playing']:
             log.count[0] = 0
             until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
-            if advance(model, one, until, crowd, log) == DONE and gust < len(gusts):
+            if run(model, one, until, crowd, log) == DONE and gust < len(gusts):
                 blow(model.effects, vector(gusts[gust, 1:4]))
                 end_now(one[0], until)
                 gust += 1

@@ -98,6 +98,23 @@ def leave(ground, part, ball, radius, until):
 
 
 @kernel
+def submerged(ground, part, ball, radius, time, until, gap, bend, hollow):
+    """Time for which a ball in a cut of `part`, or behind a one-sided sheet, is not clear of its plane yet.
+
+    Along a straight way a convex gap stays below its chord, and the path strays from that way by at
+    most A s^2 / 2.
+    """
+    place = position(ball, time)
+    way = velocity(ball, time)
+    least = max(-gap, 1e-6) / (length(way) + bend * until + 1e-3)
+    if hollow > 0.0:
+        return least
+    left = until - time
+    distance, _ = surface.nearest(ground, part, along(place, left, way))
+    return max(least, safe_advance(-gap, (gap - distance + radius) / left, bend))
+
+
+@kernel
 def first_touch(ground, part, ball, radius, begin, until):
     """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then."""
     bend = greatest_acceleration(ball)
@@ -111,8 +128,7 @@ def first_touch(ground, part, ball, radius, begin, until):
         rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
             if not surface.touchable(ground, part, place):
-                # In a cut, or behind a one-sided sheet: move on until clear of its plane.
-                time += max(-gap, 1e-6) / (length(velocity(ball, time)) + bend * until + 1e-3)
+                time += submerged(ground, part, ball, radius, time, until, gap, bend, hollow)
                 if time >= until:
                     return until, False
                 continue

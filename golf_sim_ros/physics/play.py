@@ -8,7 +8,7 @@ import numpy as np
 from . import model
 from .advance import play_all
 from .ground import surface
-from .report import Result, objection, summary
+from .report import Result, objection, summary, suspects
 from .vector import ZERO
 from .world import World, checked_wind
 
@@ -126,8 +126,8 @@ def checked_strikes(velocities, spins):
     velocities, spins = np.asarray(velocities, float), np.asarray(spins, float)
     if velocities.ndim != 2 or velocities.shape[1] != 3 or spins.shape != velocities.shape:
         raise ValueError(f'velocities {velocities.shape} and spins {spins.shape} must both be (n, 3)')
-    for i, strike in enumerate(zip(velocities, spins)):
-        reason = objection(*strike)
+    for i in np.flatnonzero(suspects(velocities, spins)):
+        reason = objection(velocities[i], spins[i])
         if reason:
             raise ValueError(f'shot {i}: {reason}')
     return np.ascontiguousarray(np.hstack([velocities, spins]))

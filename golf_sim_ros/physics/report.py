@@ -66,6 +66,7 @@ KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.l
 STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds'}
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
+ENDED_AS = np.array([STATUS.get(phase, MOVING) for phase in Phase])
 
 SUMMARY = np.dtype([
     ('status', 'U13'), ('carry', 'f8'), ('carry_side', 'f8'), ('total', 'f8'), ('side', 'f8'),
@@ -96,16 +97,15 @@ def summary(balls, hole, lies):
     landed = balls['landed'] != 0
     landing = balls['landing_velocity']
     level = np.hypot(landing[:, 0], landing[:, 1])
-    told['status'] = [OVER_TIME if late else STATUS.get(phase, MOVING)
-                      for late, phase in zip(balls['over_time'], balls['phase'])]
+    told['status'] = np.where(balls['over_time'], OVER_TIME, ENDED_AS[balls['phase']])
     told['carry'], told['carry_side'] = np.where(landed, way(balls, 'landed_at'), 0.0)
     told['total'], told['side'] = way(balls, 'position')
     told['apex'] = np.where(landed | np.isin(balls['phase'], (Phase.FLIGHT, Phase.OUT)),
                             balls['highest'] - balls['struck_at'][:, 2], 0.0)
     told['flight_time'] = np.where(landed, balls['landing'] - balls['struck'], 0.0)
     told['duration'] = balls['ended'] - balls['struck']
-    told['lie'] = ['water' if phase == Phase.WATER else lies[m] if s >= 0 else ''
-                   for m, s, phase in zip(balls['material'], balls['support'], balls['phase'])]
+    told['lie'] = np.array([*lies, ''])[np.where(balls['support'] >= 0, balls['material'], -1)]
+    told['lie'][balls['phase'] == Phase.WATER] = 'water'
     told['landing_speed'] = np.where(landed, np.hypot(level, landing[:, 2]), 0.0)
     told['landing_angle'] = np.where(landed, np.arctan2(-landing[:, 2], level), 0.0)
     told['bounces'], told['position'] = balls['bounces'], balls['position']
@@ -148,3 +148,10 @@ def objection(velocity, spin):
     if hypot(*spin) > MOST_SPIN:
         return f'spin {hypot(*spin):.6g} rad/s is over {MOST_SPIN:g} rad/s'
     return ''
+
+
+def suspects(velocities, spins):
+    """Which of the strikes, rows of both (n, 3), `objection` may have something against: a fast look."""
+    size = np.stack((np.einsum('ij,ij->i', velocities, velocities), np.einsum('ij,ij->i', spins, spins)))
+    most = 0.999 * np.array([[MOST_SPEED * MOST_SPEED], [MOST_SPIN * MOST_SPIN]])
+    return ~((size <= most).all(0) & (size > 0.0).any(0))
