@@ -144,6 +144,11 @@ def shared(function):
     return _inner(function, pipeline_class=_DraftingApart, forceinline=False) if numba else function
 
 
+def plain(function):
+    """The Python function that a kernel was made of, as long as it calls no other kernel."""
+    return getattr(function, 'py_func', function)
+
+
 def entry(function):
     """`function` as a kernel that Python can call too."""
     if numba is None:

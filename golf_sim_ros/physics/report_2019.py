@@ -16,7 +16,7 @@ from .accuracy import Preset
 from .effects import Scene, flight_rates, laws
 from .effects.gravity import Gravity
 from .effects.linear_drag import LinearDrag
-from .effects.magnus import record as magnus
+from .effects.ferguson_lift import record as lift
 from .ground import surface
 from .integrators.euler import SemiImplicitEuler
 from .material import restitution
@@ -70,7 +70,7 @@ def play_report_2019(course, velocities, spins, wind=ZERO):
         Where the ball first touched the ground, and where it came to rest [m].
     """
     strikes, gusts = checked_strikes(velocities, spins), checked_gusts(wind)
-    records = (Gravity(), LinearDrag(), magnus(Scene(course)), WindForce(gusts[0, 1:].copy()))
+    records = (Gravity(), LinearDrag(), lift(Scene(course)), WindForce(gusts[0, 1:].copy()))
     world = World(course)
     # Sand is what gives nothing back.
     absorbs = np.array([m.restitution.e0 == 0.0 for m in model_.materials(course)])

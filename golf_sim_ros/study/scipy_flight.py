@@ -4,7 +4,10 @@ from math import log, sqrt
 
 from scipy.integrate import solve_ivp
 
+from ..physics._compile import plain
 from ..physics.effects import Scene, choose
+from ..physics.effects.drag import drag_coefficient
+from ..physics.effects.magnus import lift_per_ratio
 from ..physics.play import checked_gusts
 
 LONGEST = 60.0  # s
@@ -39,20 +42,18 @@ def rates(records, wind, radius):
     drag, magnus, decay = records['drag'], records['magnus'], records['spin_decay']
     g = records['gravity'].g
     profile = records.get('wind')
+    cd, cl = plain(drag_coefficient), plain(lift_per_ratio)
 
     def right_hand_side(time, state):
         _, _, z, vx, vy, vz, wx, wy, wz = state
         share = profile.weight * log(1.0 + max(z, 0.0) / profile.parameter) if profile else 0.0
         ux, uy, uz = vx - share * wind[0], vy - share * wind[1], vz - share * wind[2]
         speed = sqrt(ux * ux + uy * uy + uz * uz)
-        ratio = min(radius * sqrt(wx * wx + wy * wy + wz * wz) / speed, -0.5 * drag.c1 / drag.c2)
-        k = -drag.push * (drag.c0 + drag.c1 * ratio + drag.c2 * ratio * ratio) * speed
+        ratio = radius * sqrt(wx * wx + wy * wy + wz * wz) / speed
+        k = -drag.push * cd(drag.law, ratio, drag.reynolds * speed) * speed
         cx, cy, cz = wy * uz - wz * uy, wz * ux - wx * uz, wx * uy - wy * ux
-        per = radius / (speed * speed)
-        ratio = per * sqrt(cx * cx + cy * cy + cz * cz)
-        held = min(ratio, -0.5 * magnus.c1 / magnus.c2)
-        lift = magnus.push * speed * speed * per * (magnus.c0 + magnus.c1 * held + magnus.c2 * held * held)
-        lift /= sqrt(ratio * ratio + magnus.fade * magnus.fade)
+        ratio = radius * sqrt(cx * cx + cy * cy + cz * cz) / (speed * speed)
+        lift = magnus.push * radius * cl(magnus.law, ratio, magnus.reynolds * speed)
         d = -decay.rate * speed
         return (vx, vy, vz, k * ux + lift * cx, k * uy + lift * cy, k * uz + lift * cz - g,
                 d * wx, d * wy, d * wz)

@@ -22,6 +22,7 @@ SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
 effects = pytest.mark.parametrize('name', EFFECTS)
 # Effects of what these scenes do not have; that they matter is shown where they are tested.
 ELSEWHERE = {'ball_ball', 'foliage', 'water'}
+ON_REQUEST = {'linear_drag', 'ferguson_drag', 'ferguson_lift'}
 # The others are left out because one is better, not because they would do nothing.
 AUTOMATIC = [name for name in EFFECTS if 'request' not in EFFECTS[name].idle(SCENES['wind'])]
 
@@ -100,9 +101,9 @@ def test_auto_gives_each_effect_or_a_reason(scene):
 
 def test_auto_leaves_out_what_the_scene_has_no_cause_for():
     off = {scene: choose('auto', SCENES[scene]).off for scene in SCENES}
-    assert off['calm turf'].keys() == {'wind', 'linear_drag'} | ELSEWHERE
-    assert off['hard ground'].keys() == {'wind', 'linear_drag', 'turf'} | ELSEWHERE
-    assert off['wind'].keys() == {'linear_drag'} | ELSEWHERE
+    assert off['calm turf'].keys() == {'wind'} | ON_REQUEST | ELSEWHERE
+    assert off['hard ground'].keys() == {'wind', 'turf'} | ON_REQUEST | ELSEWHERE
+    assert off['wind'].keys() == ON_REQUEST | ELSEWHERE
     assert off['no air'].keys() >= {'drag', 'magnus', 'spin_decay', 'turf', 'wind'}
     assert off['no air']['drag'] == 'no air' and off['calm turf']['wind'] == 'no wind'
     assert off['hard ground']['turf'] == 'all ground is hard'

@@ -7,8 +7,9 @@ from golf_sim_ros.physics import (ACCURACY, EFFECTS, Course, LogProfile, Patch, 
                                   Shot, UniformProfile, World, register_effect, simulate, simulate_many)
 from golf_sim_ros.physics.air import density
 from golf_sim_ros.physics.effects import wind_at
-from golf_sim_ros.physics.effects.drag import Drag, dynamic_push
-from golf_sim_ros.physics.effects.magnus import Magnus
+from golf_sim_ros.physics.effects.drag import dynamic_push
+from golf_sim_ros.physics.effects.ferguson_drag import FergusonDrag
+from golf_sim_ros.physics.effects.ferguson_lift import FergusonLift
 from hypothesis import HealthCheck, assume, given, settings, strategies as st
 import numpy as np
 import oracles
@@ -51,10 +52,11 @@ def findings():
 
 def with_constant_drag_and_lift():
     """Register drag and lift of constant coefficients, as a package of its own would."""
-    register_effect('constant_drag', lambda scene: Drag(dynamic_push(scene.course), 1.0, 0.4, 0.0, -1.0),
+    register_effect('constant_drag',
+                    lambda scene: FergusonDrag(dynamic_push(scene.course), 1.0, 0.4, 0.0, -1.0),
                     lambda scene: 'only on request', 'Drag of constant coefficient.')
     register_effect('constant_lift',
-                    lambda scene: Magnus(dynamic_push(scene.course), 1.0, 0.25, 0.0, -1.0, 0.0),
+                    lambda scene: FergusonLift(dynamic_push(scene.course), 1.0, 0.25, 0.0, -1.0, 0.0),
                     lambda scene: 'only on request', 'Lift of constant coefficient.')
 
 

@@ -1,52 +1,67 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Magnus lift of a golf ball: lift coefficient quadratic in the spin ratio."""
+"""Magnus lift of a golf ball: lift coefficient smooth in spin ratio and Reynolds number."""
 from math import sqrt
 from typing import NamedTuple
 
+from .._compile import kernel
 from ..vector import cross, length, scale
 from . import laws
-from .drag import dynamic_push
+from .drag import dynamic_push, reynolds_number
 
-# Ferguson, McNally, McPhee (2022); see drag.py. Held from the vertex of the parabola, 0.524, on.
-FERGUSON_LIFT = (0.0504, 1.2031, -1.1490)
-# The published law gives 0.05 at no spin, where lift has no direction. Below this spin ratio the
-# lift fades to zero smoothly; a drive flies at 0.08 and more. (Estimate.)
-FADE = 0.01
+
+class LiftLaw(NamedTuple):
+    """Lift coefficient over the spin ratio S >= 0, for a Reynolds number Re; S times it is bounded.
+
+    ``CL = S (early (1 - lost b) / sqrt(S^2 + early_at^2) + late / sqrt(S^2 + late_at^2))`` with
+    ``b = 1 / (1 + (Re / slow_at)^4)``: a part that sets in with the first spin, less at low Reynolds
+    numbers, and one that grows with it. Fitted together with `drag.DragLaw`.
+    """
+
+    early: float = 0.06887
+    early_at: float = 0.02
+    lost: float = 0.4528
+    slow_at: float = 2.049e5
+    late: float = 0.3455
+    late_at: float = 0.2587
 
 
 class Magnus(NamedTuple):
-    """Lift along spin x velocity, of coefficient ``c0 + c1 S + c2 S^2``.
+    """Lift along spin x velocity by a `law`.
 
-    S is the part of the spin across the velocity, times radius, over speed. Held from the vertex
-    on; times S / sqrt(S^2 + `fade`^2), so that it is smooth where the spin vanishes. `push` is
-    rho A / (2 m) [1/m].
+    S is the part of the spin across the velocity, times radius, over speed; `push` is rho A / (2 m) [1/m],
+    `reynolds` the Reynolds number at 1 m/s.
     """
 
     push: float
     radius: float
-    c0: float
-    c1: float
-    c2: float
-    fade: float
+    reynolds: float
+    law: LiftLaw
+
+
+@kernel
+def lift_per_ratio(law, ratio, reynolds):
+    """Lift coefficient over the spin ratio, at `ratio` and `reynolds`; see `LiftLaw`."""
+    ss = ratio * ratio
+    b = reynolds * reynolds / (law.slow_at * law.slow_at)
+    return (law.early * (1.0 - law.lost / (1.0 + b * b)) / sqrt(ss + law.early_at * law.early_at)
+            + law.late / sqrt(ss + law.late_at * law.late_at))
 
 
 @laws.acceleration.register(Magnus)
 def _acceleration(effect, flow):
     if flow.speed == 0.0:
         return 0.0, 0.0, 0.0
+    # push v^2 CL along across / |across|, where S is radius |across| / v^2: no division by a vanishing spin.
     across = cross(flow.spin, flow.velocity)
-    per_ratio = effect.radius / (flow.speed * flow.speed)
-    ratio = per_ratio * length(across)
-    held = min(ratio, -0.5 * effect.c1 / effect.c2)
-    coefficient = effect.c0 + effect.c1 * held + effect.c2 * held * held
-    # across / |across| * ratio / sqrt(ratio^2 + fade^2), with no division by a vanishing spin
-    strength = coefficient * per_ratio / sqrt(ratio * ratio + effect.fade * effect.fade)
-    return scale(effect.push * strength * flow.speed * flow.speed, across)
+    ratio = effect.radius * length(across) / (flow.speed * flow.speed)
+    per_ratio = lift_per_ratio(effect.law, ratio, effect.reynolds * flow.speed)
+    return scale(effect.push * effect.radius * per_ratio, across)
 
 
 def record(scene):
     """Record for `scene`."""
-    return Magnus(dynamic_push(scene.course), scene.course.ball.radius, *FERGUSON_LIFT, FADE)
+    course = scene.course
+    return Magnus(dynamic_push(course), course.ball.radius, reynolds_number(course), LiftLaw())
 
 
 def idle(scene):

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Magnus lift after Ferguson et al. (2022): lift coefficient quadratic in the spin ratio."""
+from math import sqrt
+from typing import NamedTuple
+
+from ..vector import cross, length, scale
+from . import laws
+from .drag import dynamic_push
+
+# Ferguson, McNally, McPhee (2022); see ferguson_drag.py. Held from the vertex of the parabola, 0.524, on.
+FERGUSON_LIFT = (0.0504, 1.2031, -1.1490)
+# The published law gives 0.05 at no spin, where lift has no direction. Below this spin ratio the
+# lift fades to zero smoothly; a drive flies at 0.08 and more. (Estimate.)
+FADE = 0.01
+
+
+class FergusonLift(NamedTuple):
+    """Lift along spin x velocity, of coefficient ``c0 + c1 S + c2 S^2``.
+
+    S is the part of the spin across the velocity, times radius, over speed. Held from the vertex
+    on; times S / sqrt(S^2 + `fade`^2), so that it is smooth where the spin vanishes. `push` is
+    rho A / (2 m) [1/m].
+    """
+
+    push: float
+    radius: float
+    c0: float
+    c1: float
+    c2: float
+    fade: float
+
+
+@laws.acceleration.register(FergusonLift)
+def _acceleration(effect, flow):
+    if flow.speed == 0.0:
+        return 0.0, 0.0, 0.0
+    across = cross(flow.spin, flow.velocity)
+    per_ratio = effect.radius / (flow.speed * flow.speed)
+    ratio = per_ratio * length(across)
+    held = min(ratio, -0.5 * effect.c1 / effect.c2)
+    coefficient = effect.c0 + effect.c1 * held + effect.c2 * held * held
+    # across / |across| * ratio / sqrt(ratio^2 + fade^2), with no division by a vanishing spin
+    strength = coefficient * per_ratio / sqrt(ratio * ratio + effect.fade * effect.fade)
+    return scale(effect.push * strength * flow.speed * flow.speed, across)
+
+
+def record(scene):
+    """Record for `scene`."""
+    return FergusonLift(dynamic_push(scene.course), scene.course.ball.radius, *FERGUSON_LIFT, FADE)
+
+
+def idle(scene):
+    """Why `scene` can do without: `magnus` is better."""
+    return 'an alternative to magnus, only on request'
