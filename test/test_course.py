@@ -5,6 +5,7 @@ import os
 
 from golf_sim_ros import physics
 from golf_sim_ros.course import CourseError, load_course, shipped_courses
+from golf_sim_ros.materials import shipped
 from golf_sim_ros.physics.air import Air, standard_atmosphere
 from golf_sim_ros.physics.course import Ball
 from golf_sim_ros.physics.effects.wind import LogProfile, PowerProfile, UniformProfile
@@ -12,7 +13,7 @@ from golf_sim_ros.physics.ground.patch import Patch
 from golf_sim_ros.physics.ground.plane import Plane
 from golf_sim_ros.physics.ground.solid import Cylinder, Sphere
 from golf_sim_ros.physics.ground.water import Water
-from golf_sim_ros.physics.material import PENNER, Restitution
+from golf_sim_ros.physics.material import PENNER, Material, Restitution
 from golf_sim_ros.share import share
 
 from hypothesis import HealthCheck, given, settings, strategies as st
@@ -22,8 +23,9 @@ import yaml
 
 PLAIN = 'format: 1\nground: [{shape: plane, material: rough}]\n'
 PATCH = 'center: [0, 0, 0], length: 4, width: 2, material: rough'
-GROUNDS = 'fairway, green, rough, sand, tee'
-KNOWN = 'cup, fairway, flagstick, green, leaves, rough, sand, stone, tee, wood'
+GROUNDS = 'artificial_turf, fairway, firm_green, first_cut, green, hardpan, rough, sand, soft_green, tee'
+KNOWN = ('artificial_turf, cup, fairway, firm_green, first_cut, flagstick, green, hardpan, leaves, rough, '
+         'sand, soft_green, stone, tee, wood')
 
 
 @pytest.fixture
@@ -438,17 +440,10 @@ def test_junk_anywhere_is_a_course_or_one_line(write, way, junk):
 
 # What is shipped
 
-def shipped_materials():
-    """The shipped materials by name, as a course gets them."""
-    names = sorted(path.stem for path in share('config', 'materials').glob('*.yaml'))
-    return {shape.material.name: shape.material for shape in load_course(share(
-        'config', 'courses', 'golf_without_friends.yaml')).ground} | {'names': names}
-
-
 def test_the_shipped_materials_are_those_of_a_golf_course():
-    found = shipped_materials()
-    assert found.pop('names') == [n for n in KNOWN.split(', ') if n not in ('cup', 'flagstick')]
-    assert sorted(found) == GROUNDS.split(', ')
+    entries, sources = shipped()
+    assert sorted(sources) == [n for n in KNOWN.split(', ') if n not in ('cup', 'flagstick')]
+    found = {name: Material(name=name, **entries[name]) for name in GROUNDS.split(', ')}
     for material in found.values():
         assert material.static_friction >= material.dynamic_friction > 0
         assert material.rolling_resistance > 0 and 0 <= material.restitution.e0 < 1
@@ -456,7 +451,8 @@ def test_the_shipped_materials_are_those_of_a_golf_course():
     assert brightness['rough'] < brightness['fairway'] < brightness['green']
     red, green, blue = found['sand'].color
     assert found['sand'].restitution == Restitution() and red > green > blue > 0.5
-    slow = [found[name].rolling_resistance for name in ('green', 'tee', 'fairway', 'rough', 'sand')]
+    slow = [found[name].rolling_resistance for name in (
+        'firm_green', 'green', 'soft_green', 'tee', 'fairway', 'first_cut', 'rough', 'sand')]
     assert slow == sorted(slow)
 
 

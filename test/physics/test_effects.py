@@ -22,7 +22,7 @@ SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
 effects = pytest.mark.parametrize('name', EFFECTS)
 # Effects of what these scenes do not have; that they matter is shown where they are tested.
 ELSEWHERE = {'ball_ball', 'foliage', 'water'}
-ON_REQUEST = {'linear_drag', 'ferguson_drag', 'ferguson_lift'}
+ON_REQUEST = {'linear_drag', 'ferguson_drag', 'ferguson_lift', 'penner_2002'}
 # The others are left out because one is better, not because they would do nothing.
 AUTOMATIC = [name for name in EFFECTS if 'request' not in EFFECTS[name].idle(SCENES['wind'])]
 

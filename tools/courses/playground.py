@@ -8,7 +8,7 @@ BUNKER, LIP, BUNKER_DEPTH = [(20, 7), (24, 6), (27, 9), (25, 13), (21, 12)], 0.1
 LOW, HIGH, SPACING = (34.0, -8.0), (50.0, 8.0), 0.5  # of the green
 
 TEXT = """\
-# Everything that a course may hold, within 60 m: every shape and material, a zone, obstacles, water, a hole
+# Everything that a course may hold, within 60 m: every shape and material, zones, obstacles, water, a hole
 # and bounds.
 # Made by tools/make_courses.py; change it there.
 format: 1
@@ -34,6 +34,11 @@ ground:
 
 zones:
   - {{material: fairway, polygon: [[8, -5], [33, -5], [33, 5], [8, 5]]}}
+  - {{material: first_cut, polygon: [[8, 5], [18, 5], [18, 7], [8, 7]]}}
+  - {{material: artificial_turf, polygon: [[-6, 10], [0, 10], [0, 16], [-6, 16]]}}
+  - {{material: hardpan, polygon: [[2, 14], [10, 14], [10, 20], [2, 20]]}}
+  - {{material: soft_green, polygon: [[-6, -20], [4, -20], [4, -12], [-6, -12]]}}
+  - {{material: firm_green, polygon: [[6, -20], [16, -20], [16, -12], [6, -12]]}}
 
 water:
   - {{polygon: [[18, -18], [28, -18], [28, -8], [18, -8]], level: -0.2}}

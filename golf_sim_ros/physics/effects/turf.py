@@ -11,6 +11,7 @@
 from math import acos, cos, pi, sin, tanh
 from typing import NamedTuple
 
+from .._compile import kernel
 from ..vector import add, dot, length, scale, tangential
 from . import laws
 
@@ -40,15 +41,25 @@ class Turf(NamedTuple):
 @laws.contact_normal.register(Turf)
 def _contact_normal(effect, normal, velocity, softness):
     across = tangential(velocity, normal)
-    sideways = length(across)
-    if softness == 0.0 or sideways == 0.0:
+    if softness == 0.0 or length(across) == 0.0:
         return normal
-    speed = length(velocity)
     approach = max(-dot(velocity, normal), 0.0)
-    from_normal = acos(min(approach / speed, 1.0))
     dug_in = approach * approach / (approach * approach + effect.fade * effect.fade)
-    tilt = effect.most * tanh(softness * effect.rate * speed * from_normal * dug_in / effect.most)
-    return add(scale(cos(tilt), normal), scale(-sin(tilt) / sideways, across))
+    tilt = softness * effect.rate * steepness(velocity, normal) * dug_in
+    return tilted(normal, across, effect.most * tanh(tilt / effect.most))
+
+
+@kernel
+def steepness(velocity, normal):
+    """Speed times angle from the `normal`, which Penner's tilt is proportional to [m/s rad]."""
+    speed = length(velocity)
+    return speed * acos(min(max(-dot(velocity, normal), 0.0) / speed, 1.0))
+
+
+@kernel
+def tilted(normal, across, tilt):
+    """`normal` turned by `tilt` [rad] against `across`, a motion along the ground."""
+    return add(scale(cos(tilt), normal), scale(-sin(tilt) / length(across), across))
 
 
 def record(scene):

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What turf and sand do to balls that land, and to those that roll: against what golfers see."""
+import csv
+from math import log, pi
+from pathlib import Path
+
+from driving_range import launched, level, slope
+from golf_sim_ros.materials import shipped
+from golf_sim_ros.physics import PENNER, Material, World, simulate_many
+from golf_sim_ros.physics.material import rolling_resistance_of_stimp
+import numpy as np
+import pytest
+
+MPH, YARD, RPM, DEGREE = 0.44704, 0.9144, pi / 30, pi / 180
+DATA = Path(__file__).parents[1] / 'data'
+PENNER_ROWS = [row for row in csv.DictReader(
+    line for line in (DATA / 'bounce_expected_penner.csv').read_text().splitlines() if line[0] != '#')
+    if row['surface_model'].startswith('Penner')]
+
+
+def ground(name):
+    """Level course of a shipped material."""
+    return level(Material(name=name, **shipped()[0][name]))
+
+
+def run(material, speed, launch, backspin):
+    """Carry, and how far on from there a shot ends [yd]: mph, degrees, rpm."""
+    shot, = simulate_many(ground(material), launched(np.array([speed * MPH]), launch * DEGREE),
+                          [(0.0, -backspin * RPM, 0.0)])
+    return shot['carry'] / YARD, (shot['position'][0] - shot['carry']) / YARD
+
+
+def test_shots_run_out_as_far_as_they_do_on_a_fairway():
+    assert 15 <= run('fairway', 167, 10.9, 2686)[1] <= 40
+    assert 2 <= run('fairway', 120, 16.3, 7097)[1] <= 12
+
+
+def test_a_full_wedge_stops_on_a_firm_green_and_spins_back_on_a_soft_one():
+    assert -5 <= run('firm_green', 102, 24.2, 9304)[1] <= 5
+    assert run('soft_green', 102, 24.2, 10000)[1] * YARD <= -1.0
+
+
+def test_a_bump_and_run_runs_farther_than_it_carries():
+    for material in ('fairway', 'green', 'firm_green'):
+        carry, on = run(material, 25, 15, 1500)
+        assert on > carry
+
+
+def test_sand_stops_a_steep_wedge_and_lets_a_flat_shot_go_on():
+    assert abs(run('sand', 80, 30, 9000)[1]) * YARD <= 1.0
+    assert run('sand', 80, 5, 2000)[1] * YARD > 2.0
+
+
+@pytest.mark.parametrize('row', PENNER_ROWS, ids=[row['case'] for row in PENNER_ROWS])
+def test_penners_turf_is_as_published(row):
+    course = level(Material('penner', PENNER, 0.0, 0.45, 0.40, 0.13, 0.004, 1.0))
+    world = World(course, effects=('gravity', 'penner_2002'))
+    speed, down = float(row['v_in_mps']), float(row['angle_below_horizontal_deg']) * DEGREE
+    radius = course.ball.radius
+    world.place('ball', (0, 0, radius), velocity=(speed * np.cos(down), 0.0, -speed * np.sin(down)),
+                spin=(0.0, -float(row['backspin_in_rad_s']), 0.0))
+    world.advance(1e-9)
+    told = world['ball']
+    expected = (float(row['vx_out']), float(row['vy_out']), radius * float(row['backspin_out_rad_s']))
+    found = (told.velocity[0], told.velocity[2], -radius * told.spin[1])
+    size = np.hypot(*expected[:2])
+    np.testing.assert_allclose(found, expected, atol=0.02 * size)
+
+
+@pytest.mark.parametrize('name', ('green', 'fairway', 'rough', 'soft_green', 'hardpan', 'artificial_turf',
+                                  'sand'))
+def test_no_impact_leaves_into_the_ground_or_gains_energy(name):
+    rng = np.random.default_rng(11)
+    world = World(ground(name))
+    radius, inertia = world.course.ball.radius, world.course.ball.inertia
+    for _ in range(100):
+        direction = rng.normal(size=3)
+        velocity = rng.uniform(0.5, 80) * direction / np.linalg.norm(direction)
+        velocity[2] = -abs(velocity[2])
+        spin = rng.uniform(-700, 700, 3)
+        world.place('ball', (0, 0, radius), velocity=velocity, spin=spin)
+        world.advance(1e-9)
+        told = world['ball']
+        before = velocity @ velocity + inertia * radius ** 2 * spin @ spin
+        after = np.square(told.velocity).sum() + inertia * radius ** 2 * np.square(told.spin).sum()
+        assert told.velocity[2] >= -1e-7 and after <= before * (1 + 1e-9) + 1e-6
+
+
+@pytest.mark.parametrize('stimp', (7, 10, 13))
+def test_a_ball_rolls_as_many_feet_as_the_stimpmeter_says(stimp):
+    green = Material('green', PENNER, 0.0, 0.45, 0.40, rolling_resistance_of_stimp(stimp), 0.002, 1.0)
+    course = level(green)
+    world = World(course)
+    radius = course.ball.radius
+    world.place('ball', (0, 0, radius), velocity=(1.83, 0, 0), spin=(0, 1.83 / radius, 0))
+    world.advance(30.0)
+    assert world['ball'].position[0] / 0.3048 == pytest.approx(stimp, rel=0.01)
+
+
+def test_a_putt_across_a_slope_breaks_as_in_closed_form():
+    distance, beyond, tilt = 3.048, 0.45, 0.02
+    green = Material('green', PENNER, 0.0, 0.45, 0.40, rolling_resistance_of_stimp(10), 0.002, 1.0)
+    course = slope(np.arctan(tilt), green)
+    brake, pull = rolling_resistance_of_stimp(10) * 9.80665, 5 / 7 * 9.80665 * tilt
+    speed = (2 * brake * (distance + beyond)) ** 0.5
+    world = World(course)
+    start = world['ball'].position
+    radius = course.ball.radius
+    # Across: along y, downhill is +x.
+    world.place('ball', start, velocity=(0, speed, 0), spin=(-speed / radius, 0, 0))
+    while world['ball'].position[1] - start[1] < distance and world.moving:
+        world.advance(0.001)
+    expected = pull / brake * (distance / 2 - beyond / 2 * log((distance + beyond) / beyond))
+    assert world['ball'].position[0] - start[0] == pytest.approx(expected, rel=0.03)
