@@ -59,30 +59,37 @@ def spin_after(spin, path):
     return spin * exp(-2e-5 * path / RADIUS)
 
 
-def golf_ball_rates(density):
+def drag_coefficient(s, re):
+    """Drag coefficient by spin ratio and Reynolds number: a fit, its numbers the package's own."""
+    return (0.11 + 0.1529 * re ** 2 / (re ** 2 + 1.564e5 ** 2)
+            + 0.1591 * (1 + 4.198 / (1 + (re / 5.133e4) ** 4)) * s ** 2 / (s ** 2 + 0.1649 ** 2)
+            + 0.5955 / (1 + (re / 5.519e4) ** 4) / (1 + (s / 0.05) ** 2))
+
+
+def lift_coefficient(s, re):
+    """Lift coefficient likewise."""
+    return (s / sqrt(s ** 2 + 0.02 ** 2) * 0.06887 * (1 - 0.4528 / (1 + (re / 2.049e5) ** 4))
+            + 0.3455 * s / sqrt(s ** 2 + 0.2587 ** 2))
+
+
+def golf_ball_rates(density, viscosity):
     """Right-hand side y' = f(t, y) of a golf ball's flight in still air; y is position, velocity, spin.
 
-    Drag and lift after Ferguson, McNally, McPhee 2022 (doi 10.5703/1288284317493), held from their
-    parabolas' vertices on; lift of spin across the path, faded below a spin ratio of 0.01; spin
-    decay after Smits and Smith 1994.
+    Drag against the velocity, lift along spin x velocity by the spin across the path, spin decay after
+    Smits and Smith 1994.
     """
     push = density * pi * RADIUS * RADIUS / (2 * MASS)
     decay = 2e-5 * density / 1.18 / RADIUS
-    drag_vertex, lift_vertex = 0.9287 / (2 * 0.8259), 1.2031 / (2 * 1.1490)
 
     def rates(_, y):
         u, v, w, p, q, r = map(float, y[3:])
         speed = sqrt(u * u + v * v + w * w)
-        s = min(RADIUS * sqrt(p * p + q * q + r * r) / speed, drag_vertex)
-        drag = push * (0.1304 + 0.9287 * s - 0.8259 * s * s) * speed
+        re = 2 * RADIUS * speed * density / viscosity
+        drag = push * drag_coefficient(RADIUS * sqrt(p * p + q * q + r * r) / speed, re) * speed
         lx, ly, lz = q * w - r * v, r * u - p * w, p * v - q * u
         across = sqrt(lx * lx + ly * ly + lz * lz)
-        s = RADIUS * across / (speed * speed)
-        held = min(s, lift_vertex)
-        lift = 0.0
-        if across > 0:
-            lift = (0.0504 + 1.2031 * held - 1.1490 * held * held) * s / sqrt(s * s + 1e-4)
-            lift *= push * speed * speed / across
+        lift = push * speed * speed * lift_coefficient(RADIUS * across / (speed * speed), re)
+        lift = lift / across if across > 0 else 0.0
         fade = -decay * speed
         return (u, v, w, lift * lx - drag * u, lift * ly - drag * v, lift * lz - drag * w - G,
                 fade * p, fade * q, fade * r)

@@ -14,7 +14,6 @@ from golf_sim_ros.physics.ground.plane import Plane
 from golf_sim_ros.physics.ground.solid import Cylinder, Sphere
 from golf_sim_ros.physics.ground.water import Water
 from golf_sim_ros.physics.material import PENNER, Material, Restitution
-from golf_sim_ros.share import share
 
 from hypothesis import HealthCheck, given, settings, strategies as st
 import numpy as np

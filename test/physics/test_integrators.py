@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from driving_range import EVERYTHING, TURF, first_touches, launched, level, random_shots
 from golf_sim_ros.physics import ACCURACY, METHODS, Preset, World, simulate_many
-from golf_sim_ros.physics.air import density
+from golf_sim_ros.physics.air import density, viscosity
 from golf_sim_ros.physics.integrators import dormand_prince, runge_kutta
 from golf_sim_ros.physics.integrators.dormand_prince import DormandPrince
 from golf_sim_ros.physics.model import Limits
@@ -26,8 +26,10 @@ def flown(velocity, spin, time):
     touch.terminal, touch.direction = True, -1
 
     start = (0, 0, oracles.RADIUS, *velocity, *spin)
-    told = solve_ivp(oracles.golf_ball_rates(density(level(TURF).air)), (0, time), start, method='DOP853',
-                     rtol=3e-14, atol=1e-14, max_step=0.05, events=touch)
+    air = level(TURF).air
+    rates = oracles.golf_ball_rates(density(air), viscosity(air))
+    told = solve_ivp(rates, (0, time), start, method='DOP853', rtol=3e-14, atol=1e-14,
+                     max_step=0.05, events=touch)
     return told.y[:, -1], told.t[-1]
 
 
@@ -90,7 +92,8 @@ def typical_error(places, truth):
 @pytest.mark.parametrize('name, order, stages, steps', [
     ('euler', 1, 1, (50, 100, 200)),
     ('rk4', 4, 5, (16, 32, 64)),
-    ('fixed_dormand_prince', 5, 7, (6, 12, 24, 48, 96)),
+    # Coarser steps are not small against how fast the drag crisis comes; finer ones meet rounding.
+    ('fixed_dormand_prince', 5, 7, (24, 36, 48)),
 ])
 def test_the_error_of_a_flight_falls_with_the_step_to_the_order(name, order, stages, steps, truth):
     told = run(flights_by, name, [TIME / n for n in steps], high_shots())
