@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draws docs/physics.png and prints the tables of docs/physics.md: the laws against what was measured.
+
+    .venv/bin/python tools/draw_physics.py
+"""
+from math import log
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+from fit_aerodynamics import DEGREE, MPH, RPM, TABLES, YARD, column, drag_and_lift, rows
+from golf_sim_ros.drawing.style import bare, colors
+from golf_sim_ros.materials import shipped
+from golf_sim_ros.physics import Course, Material, Plane, Shot, World, simulate, simulate_many
+from golf_sim_ros.physics.effects.drag import DragLaw
+from golf_sim_ros.physics.effects.magnus import LiftLaw
+
+matplotlib.use('Agg')
+from matplotlib import pyplot as plt  # noqa: E402
+
+DOCS = Path(__file__).parents[1] / 'docs'
+LAWS = {'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
+        'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay')}
+RUNS = (('driver, fairway', 'fairway', 167, 10.9, 2686), ('7 iron, fairway', 'fairway', 120, 16.3, 7097),
+        ('wedge, firm green', 'firm_green', 102, 24.2, 9304),
+        ('wedge of 10,000 rpm, soft green', 'soft_green', 102, 24.2, 10000),
+        ('bump and run, green', 'green', 25, 15, 1500), ('wedge, sand', 'sand', 80, 30, 9000))
+
+
+def ground(name, normal=(0, 0, 1)):
+    """Course of one plane of a shipped material."""
+    return Course((Plane(normal=normal, material=Material(name=name, **shipped()[0][name])),))
+
+
+def strikes(speed, launch, backspin):
+    """Velocities and spins of shots: mph, degrees, rpm."""
+    v, angle = np.atleast_1d(speed) * MPH, np.atleast_1d(launch) * DEGREE
+    zero = np.zeros(len(v))
+    return (np.stack((v * np.cos(angle), zero, v * np.sin(angle)), 1),
+            np.stack((zero, -np.atleast_1d(backspin) * RPM, zero), 1))
+
+
+def of_table(name):
+    """Its rows' strikes."""
+    table = rows(name)
+    return strikes(*(column(table, key) for key in ('ball_speed_mph', 'launch_deg', 'spin_rpm')))
+
+
+def print_errors():
+    """Mean and greatest errors of each set of laws against each table."""
+    print('| table | laws | carry [yd]: mean, worst | apex [yd] | landing angle [deg] |')
+    print('|---|---|---|---|---|')
+    for name in TABLES:
+        table = rows(name)
+        told = [column(table, key) for key in ('carry_yd', 'max_height_yd', 'land_angle_deg')]
+        for law, effects in LAWS.items():
+            shots = simulate_many(ground('fairway'), *of_table(name), effects=effects)
+            found = shots['carry'] / YARD, shots['apex'] / YARD, shots['landing_angle'] / DEGREE
+            cells = [f'{np.abs(f - t).mean():.2f}, {np.abs(f - t).max():.2f}' if np.isfinite(t).all() else ''
+                     for f, t in zip(found, told)]
+            print(f'| {name} | {law} | {" | ".join(cells)} |')
+
+
+def print_runs():
+    """How far shots run out."""
+    print('| shot | carry [yd] | from there [yd] |\n|---|---|---|')
+    for label, material, *shot in RUNS:
+        end, = simulate_many(ground(material), *strikes(*shot))
+        print(f'| {label} | {end["carry"] / YARD:.1f} | {(end["position"][0] - end["carry"]) / YARD:.1f} |')
+
+
+def draw_flights(axes):
+    """Every club of the tour's table; a dot where the table lands it, a tick at the table's apex."""
+    table = rows('trackman_pga_2023.csv')
+    velocities, spins = of_table('trackman_pga_2023.csv')
+    palette = colors(len(table))
+    for row, velocity, spin, color in zip(table, velocities, spins, palette):
+        play = simulate(ground('fairway'), Shot(tuple(velocity), tuple(spin)))
+        flying = play.times <= play.result.flight_time
+        x, _, z = play.positions[flying].T / YARD
+        axes.plot(x, z, color=color, lw=1.2)
+        axes.plot(float(row['carry_yd']), 0.0, 'o', color=color, ms=4, clip_on=False)
+        axes.plot(x[z.argmax()], float(row['max_height_yd']), '_', color=color, ms=9)
+    bare(axes, 'PGA Tour 2023: flights, and what the table says', 'yd', 'yd')
+
+
+def points(key, spinning):
+    """Spin ratios or Reynolds numbers, and coefficients `key`, of the wind-tunnel points."""
+    found = [row for row in rows('aero_points.csv')
+             if row[key] and row['S'] and (float(row['S']) > 0) == spinning]
+    across = 'S' if spinning else 'Re'
+    return [float(row[across]) for row in found], [float(row[key]) for row in found]
+
+
+def draw_coefficients(drag_axes, lift_axes, crisis_axes):
+    """Drag and lift over the spin ratio; drag without spin over the Reynolds number."""
+    ratio, laws = np.linspace(0.0, 1.0, 300), (DragLaw(), LiftLaw())
+    speeds = (7e4, 1e5, 1.5e5, 2e5)
+    for reynolds, color in zip(speeds, colors(len(speeds))):
+        drag, lift = drag_and_lift(laws, ratio, np.full(300, reynolds))
+        drag_axes.plot(ratio, drag, color=color, label=f'Re {reynolds:g}')
+        lift_axes.plot(ratio, lift, color=color)
+    for axes, key in ((drag_axes, 'CD'), (lift_axes, 'CL')):
+        axes.plot(*points(key, True), 'k.', ms=3)
+    drag_axes.legend(frameon=False, fontsize=8)
+    reynolds = np.linspace(3e4, 2.5e5, 300)
+    crisis_axes.plot(reynolds, drag_and_lift(laws, np.zeros(300), reynolds)[0])
+    crisis_axes.plot(*points('CD', False), 'k.')
+    bare(drag_axes, 'drag coefficient', 'spin ratio')
+    bare(lift_axes, 'lift coefficient', 'spin ratio')
+    bare(crisis_axes, 'drag coefficient without spin', 'Reynolds number')
+
+
+def draw_bounce(axes):
+    """Angle and speed at which turf gives back a ball of 25 m/s without spin, by its angle."""
+    world, angles = World(ground('fairway')), np.linspace(10, 90, 33)
+    radius, out = world.course.ball.radius, []
+    for angle in angles * DEGREE:
+        world.place('ball', (0, 0, radius), velocity=(25 * np.cos(angle), 0, -25 * np.sin(angle)))
+        world.advance(1e-9)
+        out.append(world['ball'].velocity)
+    out = np.array(out)
+    axes.plot(angles, np.arctan2(out[:, 2], out[:, 0]) / DEGREE, label='angle out [deg]')
+    axes.plot(angles, 4 * np.linalg.norm(out, axis=1), label='4 x speed out [m/s]')
+    axes.legend(frameon=False, fontsize=8)
+    bare(axes, '25 m/s onto fairway, no spin', 'angle in [deg]')
+
+
+def draw_putt(axes):
+    """A putt of 10 ft across a slope of 2 %, and the closed form of its break for a small slope."""
+    tilt, way, left = 0.02, 3.048, 0.45
+    course = ground('green', (np.sin(np.arctan(tilt)), 0, np.cos(np.arctan(tilt))))
+    brake = shipped()[0]['green']['rolling_resistance'] * 9.80665
+    world = World(course)
+    x0, y0, z0 = world['ball'].position
+    speed, radius = np.sqrt(2 * brake * (way + left)), course.ball.radius
+    world.place('ball', (x0, y0, z0), velocity=(0, speed, 0), spin=(-speed / radius, 0, 0))
+    path = [world['ball'].position]
+    while world.moving:
+        world.advance(0.02)
+        path.append(world['ball'].position)
+    x, y, _ = np.array(path).T
+    axes.plot(y - y0, x - x0)
+    side = 5 / 7 * 9.80665 * tilt
+    axes.plot(way, side / brake * (way / 2 - left / 2 * log((way + left) / left)), 'ko')
+    bare(axes, '10 ft across 2 %, stimp 10: break', 'm', 'm')
+
+
+def main():
+    """Draw and print."""
+    figure, axes = plt.subplots(2, 3, figsize=(13, 7.5), constrained_layout=True)
+    draw_flights(axes[0, 0])
+    draw_coefficients(axes[0, 1], axes[0, 2], axes[1, 0])
+    draw_bounce(axes[1, 1])
+    draw_putt(axes[1, 2])
+    figure.savefig(DOCS / 'physics.png', dpi=90)
+    print_errors()
+    print()
+    print_runs()
+
+
+if __name__ == '__main__':
+    main()
