@@ -10,7 +10,7 @@ COURSES = {
     'unknown key': ('format: 1\nground: ' + GROUND + '\ntea: [0, 0]', ["'tea'", 'tee']),
     'wrong type': ('format: 1\ntee: far\nground: ' + GROUND, ['tee', "'far'", 'numbers']),
     'unknown material': ('format: 1\nground: [{shape: plane, material: gras}]',
-                         ['ground[0].material', "'gras'", 'fairway, firm_green, first_cut, flagstick, green']),
+                         ['ground[0].material', "'gras'", 'fairway, firm_green, first_cut']),
     'no ground under the tee': (
         'format: 1\ntee: [9, 0]\nground: [{shape: patch, center: [0, 0, 0], length: 2, width: 2,'
         ' material: green}]', ['tee', '[9.0, 0.0]', 'ground']),
