@@ -21,7 +21,11 @@ from matplotlib import pyplot as plt  # noqa: E402
 
 DOCS = Path(__file__).parents[1] / 'docs'
 LAWS = {'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
-        'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay')}
+        'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay'),
+        'Smits, Smith 1994': ('gravity', 'smits_smith_1994', 'spin_decay'),
+        'Naruo 2004': ('gravity', 'naruo_2004', 'spin_decay'),
+        'Bearman, Harvey 1976': ('gravity', 'bearman_harvey_1976', 'spin_decay'),
+        'linear': ('gravity', 'linear_drag', 'magnus', 'spin_decay')}
 RUNS = (('driver, fairway', 'fairway', 167, 10.9, 2686), ('7 iron, fairway', 'fairway', 120, 16.3, 7097),
         ('wedge, firm green', 'firm_green', 102, 24.2, 9304),
         ('wedge of 10,000 rpm, soft green', 'soft_green', 102, 24.2, 10000),

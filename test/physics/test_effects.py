@@ -22,7 +22,8 @@ SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
 effects = pytest.mark.parametrize('name', EFFECTS)
 # Effects of what these scenes do not have; that they matter is shown where they are tested.
 ELSEWHERE = {'ball_ball', 'foliage', 'water'}
-ON_REQUEST = {'linear_drag', 'ferguson_drag', 'ferguson_lift', 'penner_2002'}
+ON_REQUEST = {'linear_drag', 'ferguson_drag', 'ferguson_lift', 'penner_2002',
+              'smits_smith_1994', 'naruo_2004', 'bearman_harvey_1976'}
 # The others are left out because one is better, not because they would do nothing.
 AUTOMATIC = [name for name in EFFECTS if 'request' not in EFFECTS[name].idle(SCENES['wind'])]
 
@@ -168,7 +169,8 @@ def test_effects_not_asked_for_are_off_and_say_so():
 
 
 def test_an_unknown_effect_is_named_with_the_known_ones():
-    with pytest.raises(ValueError, match="'rain' is unknown; known: auto, ball_ball, drag"):
+    known = 'auto, ball_ball, bearman_harvey_1976, drag'
+    with pytest.raises(ValueError, match=f"'rain' is unknown; known: {known}"):
         World(level(TURF), effects=('gravity', 'rain'))
 
 

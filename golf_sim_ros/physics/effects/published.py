@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the published laws of drag and lift share: coefficients become an acceleration."""
+from math import sqrt
+
+from .._compile import kernel
+from ..vector import add, cross, length, scale
+
+# The published laws give lift at no spin, where it has no direction, or let it set in infinitely steeply.
+# Below this spin ratio it fades to zero smoothly. (Estimate; a drive flies at 0.08 and more.)
+FADE = 0.01
+
+
+@kernel
+def spin_ratio(radius, flow):
+    """Spin times radius over speed: what the published laws go by, of all the spin."""
+    return radius * length(flow.spin) / flow.speed
+
+
+@kernel
+def drag_and_lift(push, flow, ratio, drag, lift):
+    """Acceleration by coefficients `drag` and `lift` at the spin ratio `ratio`; `push` is rho A / (2 m)."""
+    across = cross(flow.spin, flow.velocity)
+    size = length(across)
+    braking = scale(-push * drag * flow.speed, flow.velocity)
+    if size == 0.0:
+        return braking
+    fading = ratio / sqrt(ratio * ratio + FADE * FADE)
+    return add(braking, scale(push * lift * fading * flow.speed * flow.speed / size, across))
