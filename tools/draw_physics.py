@@ -12,7 +12,8 @@ import numpy as np
 from fit_aerodynamics import DEGREE, MPH, RPM, TABLES, YARD, column, drag_and_lift, rows
 from golf_sim_ros.drawing.style import bare, colors
 from golf_sim_ros.materials import shipped
-from golf_sim_ros.physics import Course, Material, Plane, Shot, World, simulate, simulate_many
+from golf_sim_ros.physics import (Course, Material, Phase, Plane, Restitution, Shot, World, simulate,
+                                  simulate_many)
 from golf_sim_ros.physics.effects.drag import DragLaw
 from golf_sim_ros.physics.effects.magnus import LiftLaw
 
@@ -151,13 +152,53 @@ def draw_putt(axes):
     bare(axes, '10 ft across 2 %, stimp 10: break', 'm', 'm')
 
 
+def draw_errors(axes):
+    """The carry's error, club by club, of both of the tour's tables."""
+    for name in TABLES[:2]:
+        carry = simulate_many(ground('fairway'), *of_table(name))['carry'] / YARD
+        axes.plot(carry - column(rows(name), 'carry_yd'), 'o-', ms=4, label=name[13:-4].replace('_', ' '))
+    axes.axhline(0, color='k', lw=0.5)
+    axes.set_xticks(range(12), [row['club'].split()[0] for row in rows(name)], rotation=60, fontsize=7)
+    axes.legend(frameon=False, fontsize=8)
+    bare(axes, 'carry: found less told', '', 'yd')
+
+
+def fastest_holed(aside, bounciness):
+    """Lowest speed [m/s] at the rim that escapes a hole in a level green, `aside` [m] off its centre."""
+    green = Material(name='green', **shipped()[0]['green'])._replace(restitution=Restitution(bounciness))
+    world = World(Course((Plane(material=green),), hole=(1.0, 0.0), flagstick=False))
+    radius, brake = world.course.ball.radius, 9.80665 * green.rolling_resistance
+    start, low, high = 1.0 - np.sqrt(0.054 ** 2 - aside ** 2) - 0.1, 0.1, 4.0
+    for _ in range(12):
+        speed = 0.5 * (low + high)
+        before = np.sqrt(speed ** 2 + 2 * brake * 0.1)
+        world.reset()
+        place = start, aside, radius
+        world.place('ball', place, velocity=(before, 0, 0), spin=(0, before / radius, 0))
+        world.advance(15.0)
+        low, high = (speed, high) if world['ball'].phase == Phase.HOLED else (low, speed)
+    return high
+
+
+def draw_capture(axes):
+    """Up to which speed the hole takes a ball, by how far off centre it rolls, and by its rim."""
+    aside = np.linspace(0.0, 0.05, 11)
+    for bounciness in (0.2, 0.5, 0.8):
+        speeds = [fastest_holed(d, bounciness) for d in aside]
+        axes.plot(1e3 * aside, speeds, '.-', label=f'rim gives {bounciness}')
+    axes.legend(frameon=False, fontsize=8)
+    bare(axes, 'lowest speed that escapes the hole, m/s', 'mm off centre')
+
+
 def main():
     """Draw and print."""
-    figure, axes = plt.subplots(2, 3, figsize=(13, 7.5), constrained_layout=True)
+    figure, axes = plt.subplots(2, 4, figsize=(16, 7.5), constrained_layout=True)
     draw_flights(axes[0, 0])
     draw_coefficients(axes[0, 1], axes[0, 2], axes[1, 0])
     draw_bounce(axes[1, 1])
     draw_putt(axes[1, 2])
+    draw_errors(axes[0, 3])
+    draw_capture(axes[1, 3])
     figure.savefig(DOCS / 'physics.png', dpi=90)
     print_errors()
     print()
