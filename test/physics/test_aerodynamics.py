@@ -5,10 +5,11 @@ from math import pi
 from pathlib import Path
 
 from driving_range import TURF, launched, level
-from golf_sim_ros.physics import Air, simulate_many
+from golf_sim_ros.physics import Air, LogProfile, PowerProfile, UniformProfile, simulate_many
 from golf_sim_ros.physics._compile import plain
 from golf_sim_ros.physics.effects.drag import DragLaw, drag_coefficient
 from golf_sim_ros.physics.effects.magnus import LiftLaw, lift_per_ratio
+from golf_sim_ros.physics.effects.wind import blowing, share
 import numpy as np
 import pytest
 
@@ -118,3 +119,17 @@ def test_neighbouring_shots_carry_nearly_the_same():
     one = play(launched(speed, angle), backspin)['carry']
     other = play(launched(speed * near[0], angle * near[1]), backspin * near[2])['carry']
     assert np.abs(one - other).max() < 0.1 * YARD
+
+
+@pytest.mark.parametrize('profile', (LogProfile(), LogProfile(0.3), PowerProfile(), UniformProfile()))
+def test_wind_grows_with_height_without_a_kink(profile):
+    height = np.geomspace(0.02, 100.0, 400)
+    wind = blowing(profile, (1.0, 0.0, 0.0))
+    size = 1e-4 * height
+
+    def at(heights):
+        return np.array([plain(share)(wind, h) for h in heights])
+
+    assert (np.diff(at(height)) >= 0.0).all()
+    second = at(height + size) - 2.0 * at(height) + at(height - size)
+    assert np.abs(second).max() < 1e-7

@@ -83,3 +83,23 @@ def test_no_impact_leaves_into_the_ground_or_gains_energy(name):
         before = velocity @ velocity + inertia * radius ** 2 * spin @ spin
         after = np.square(told.velocity).sum() + inertia * radius ** 2 * np.square(told.spin).sum()
         assert told.velocity[2] >= -1e-7 and after <= before * (1 + 1e-9) + 1e-6
+
+
+@pytest.mark.parametrize('name', ('green', 'fairway', 'rough', 'soft_green', 'hardpan', 'sand'))
+def test_neighbouring_impacts_end_nearly_the_same(name):
+    rng = np.random.default_rng(17)
+    world = World(ground(name))
+    radius = world.course.ball.radius
+
+    def after(velocity, spin):
+        world.place('ball', (0, 0, radius), velocity=velocity, spin=spin)
+        world.advance(1e-9)
+        told = world['ball']
+        return np.concatenate((told.velocity, radius * np.array(told.spin)))
+
+    for _ in range(100):
+        velocity, spin = rng.uniform(-60, 60, 3), rng.uniform(-500, 500, 3)
+        velocity[2] = -abs(velocity[2]) - 0.5
+        near = 1e-7 * rng.normal(size=6)
+        moved = after(velocity + near[:3], spin + near[3:] / radius) - after(velocity, spin)
+        assert np.abs(moved).max() < 100 * np.abs(near).max()
