@@ -18,6 +18,7 @@ from math import sqrt
 
 from ._compile import kernel, shared
 from .ground import surface
+from .ground.flat import FLUSH
 from .path import (corner, greatest_acceleration, greatest_speed, least_acceleration, position,
                    span_along, velocity)
 from .state import NO_PART
@@ -132,8 +133,8 @@ def first_touch(ground, part, ball, radius, begin, until):
                 if time >= until:
                     return until, False
                 continue
-            # Where it is, a ball knows to TOUCH, so the direction of an edge to TOUCH over its radius.
-            grazing = TANGENTIAL + 2.0 * TOUCH / radius * length(velocity(ball, time))
+            # An edge is known to FLUSH, so is its direction to FLUSH over the radius: `leave` tells.
+            grazing = TANGENTIAL + FLUSH / radius * length(velocity(ball, time))
             if rate < -grazing or time > 0.0 and rate <= 0.0:
                 return time, True
             if time == 0.0 and rate <= TANGENTIAL:

@@ -19,6 +19,8 @@ from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, SPLASH, STEP, TIME_LIMIT, m
 from .vector import ZERO, along, cross, dot, put, scale, unit, vector
 
 LONGEST_SHOT = 300.0  # s
+ENDLESS = 100  # pieces of no length, one after the other: a contact that never ends is let go for a MOMENT
+MOMENT = 1e-9  # s: at most 0.15 micrometres
 SINKING_STEP = 0.02  # s: so often a sinking ball is asked whether it has come far enough
 
 
@@ -71,6 +73,10 @@ def lay_next(model, ball, now):
     ball['end'] = now + until
     if ball['piled'] and ball['ending'] == STEP and ball['end'] > next_instant(now) - 1e-9:
         ball['end'] = next_instant(now)  # the same number for all
+    ball['stuck'] = ball['stuck'] + 1 if ball['end'] <= now else 0
+    if ball['stuck'] > ENDLESS:
+        ball['end'] = now + min(MOMENT, ball['span'])
+        ball['ending'] = STEP
     if ball['playing'] and ball['end'] > ball['struck'] + LONGEST_SHOT:
         ball['end'] = ball['struck'] + LONGEST_SHOT
         ball['ending'] = TIME_LIMIT

@@ -62,7 +62,7 @@ BALL = np.dtype([
     ('playing', 'i8'), ('knocked', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
     ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
-    ('bounces', 'i8'), ('stalled', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
+    ('bounces', 'i8'), ('stalled', 'i8'), ('stuck', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
 ], align=True)
 
 # What counts of a ball that does not move: the rest is written when it sets off.

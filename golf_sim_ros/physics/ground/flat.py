@@ -28,6 +28,7 @@ from .polygon import Polygons, inside, polygons, sides
 
 SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as equally high
 ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
+FLUSH = 2.0 * ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
 AHEAD = 2e-7  # m: a ball on a border turns as it will past it, or it would leave an edge too late
 
 FACE = np.dtype([

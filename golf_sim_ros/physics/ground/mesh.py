@@ -13,11 +13,10 @@ from .._compile import kernel
 from ..material import Material
 from ..vector import ZERO, along, cross, dot, length, scale, sub, tangential, unit, vector
 from . import laws
-from .flat import ROUNDING, SAME_HEIGHT, meets
+from .flat import FLUSH, ROUNDING, SAME_HEIGHT, meets
 from .hierarchy import NODE, hierarchy
 
 AHEAD = 1e-7  # m: which way a ball on a border turns is decided this far ahead
-FLUSH = 2.0 * ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
 NARROW = 1e-9  # m: a triangle that is no wider has no plane that could be trusted
 FACE, CORNER = -1, 3  # where a place on a triangle is, if not on side 0, 1 or 2
 
