@@ -6,7 +6,7 @@ from .contact import settle
 from .crowd import CONTACTS, MEMBERS, Crowd
 from .motion import STILL
 from .pair import gap_between
-from .pile import pile_up
+from .pile import leave, pile_up
 from .state import BUMP, FLIGHT, REST, SLIDE, moves
 from .vector import dot, length, put, vector
 
@@ -31,13 +31,19 @@ def meet_ball(land, balls, i, now, crowd, log):
     if gap > together.TOGETHER:
         return  # the other one has got another path meanwhile
     stalls = now - balls[i]['begin'] < STALL
-    together.gather(land, balls, crowd, now)
+    piled = balls[i]['piled'] or balls[j]['piled']
+    if piled:  # the pile passes on what it is given
+        together.ball_contact(land, balls, i, j, crowd, now)
+    else:
+        together.gather(land, balls, crowd, now)
     collide(land, balls, now, crowd, log)
     scatter(land, balls, now, crowd, 0)
-    leans = rate > -GENTLE and (balls[i]['piled'] or balls[j]['piled'])
     for ball in (balls[i], balls[j]):
         ball['stalled'] = ball['stalled'] + 1 if stalls else 0
-        if (leans or ball['stalled'] > MANY_MEETINGS) and moves(ball['phase']) and not ball['piled']:
+        joins = piled and rate > -GENTLE or ball['stalled'] > MANY_MEETINGS
+        if not joins and ball['piled']:
+            leave(ball)
+        if joins and moves(ball['phase']) and not ball['piled']:
             pile_up(ball)
 
 

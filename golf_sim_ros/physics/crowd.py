@@ -21,7 +21,7 @@ from . import others
 from ._compile import kernel, shared
 from .detect import box
 from .others import Solo
-from .state import moves
+from .state import PILED, moves
 from .vector import along, put, vector
 
 NODE = np.dtype([('low', 'f8', 3), ('high', 'f8', 3), ('skip', 'i8'), ('parent', 'i8'), ('ball', 'i8'),
@@ -33,14 +33,17 @@ CONTACT = np.dtype([
     ('push', 'f8'), ('before', 'f8'), ('ahead', 'f8'), ('shared', 'f8'), ('rub', 'f8', 3),
     ('impulse', 'f8', 3), ('approach', 'f8')], align=True)
 
-CONTACTS_A_BALL = 8
+CONTACTS_A_BALL = 12
+ROOM = 1e-3  # m around the box of a ball of a pile, which seldom goes far
+NEIGHBOURS = 64  # balls that one of a pile may have in reach
 MEMBERS, CONTACTS, AGE = range(3)
 
 
 class Crowd(NamedTuple):
     """Scratch of an engine whose balls touch each other: that of `Solo`, and the tree.
 
-    ``nodes``: depth first; ``leaves``: each ball's node; ``order``: scratch of its making.
+    ``nodes``: depth first; ``leaves``: each ball's node; ``order``: scratch of its making; ``near``: balls
+    around the one at hand.
     """
 
     ends: np.ndarray
@@ -53,6 +56,7 @@ class Crowd(NamedTuple):
     nodes: np.ndarray
     leaves: np.ndarray
     order: np.ndarray
+    near: np.ndarray
 
 
 def scratch(balls, collide):
@@ -62,7 +66,8 @@ def scratch(balls, collide):
                 np.array([0, 0, balls]))
     if not collide:
         return solo
-    return Crowd(*solo, np.zeros(2 * balls - 1, NODE), np.zeros(balls, np.int64), np.arange(balls))
+    return Crowd(*solo, np.zeros(2 * balls - 1, NODE), np.zeros(balls, np.int64), np.arange(balls),
+                 np.zeros(NEIGHBOURS, np.int64))
 
 
 @others.prepare.register(Crowd)
@@ -72,16 +77,37 @@ def _prepare(crowd, balls, radius):
 
 
 @kernel
+def box_of(ball, radius, room):
+    """Box of the ball's piece, with `room` around it."""
+    if moves(ball['phase']) and ball['piled'] != PILED:
+        return box(ball, 0.0, ball['span'], radius + room)
+    half = (radius + room, radius + room, radius + room)
+    here = vector(ball['origin']) if moves(ball['phase']) else vector(ball['position'])
+    there = along(here, 1.0, vector(ball['path'][5])) if moves(ball['phase']) else here
+    low = min(here[0], there[0]), min(here[1], there[1]), min(here[2], there[2])
+    high = max(here[0], there[0]), max(here[1], there[1]), max(here[2], there[2])
+    return along(low, -1.0, half), along(high, 1.0, half)
+
+
+@kernel
 def write_box(ball, node, radius):
-    """Write the box of the ball's piece into its leaf."""
-    if moves(ball['phase']):
-        low, high = box(ball, 0.0, ball['span'], radius)
-    else:
-        half = (radius, radius, radius)
-        low = along(vector(ball['position']), -1.0, half)
-        high = along(vector(ball['position']), 1.0, half)
+    """Write the box of the ball's piece into its leaf; in a pile with room for some steps."""
+    low, high = box_of(ball, radius, ROOM if ball['piled'] == PILED else 0.0)
     put(node['low'], low)
     put(node['high'], high)
+
+
+@kernel
+def is_boxed(ball, node, radius):
+    """Whether the box in the leaf of a ball of a pile still serves, and is not far too large."""
+    if ball['piled'] != PILED:
+        return False
+    low, high = box_of(ball, radius, 0.0)
+    for k in range(3):
+        if not (0.0 <= low[k] - node['low'][k] <= 3.0 * ROOM
+                and 0.0 <= node['high'][k] - high[k] <= 3.0 * ROOM):
+            return False
+    return True
 
 
 @kernel
@@ -175,11 +201,13 @@ def _note(crowd, balls, i, radius):
 @shared
 def renew(crowd, balls, i, radius):
     """Tell ball `i`'s new piece. Writes the tree."""
+    leaf = crowd.leaves[i]
+    if is_boxed(balls[i], crowd.nodes[leaf], radius):
+        return
     crowd.count[AGE] += 1
     if crowd.count[AGE] > len(balls):
         plant(crowd, balls, radius)
         return
-    leaf = crowd.leaves[i]
     write_box(balls[i], crowd.nodes[leaf], radius)
     at = crowd.nodes[leaf]['parent']
     while at >= 0:

@@ -11,6 +11,7 @@ from .ground import surface
 from .impulse import Bond, impulse, take
 from .material import restitution
 from .motion import STILL
+from .pile import leave
 from .shot import note_landing
 from .state import BOUNCE, FLIGHT, SLIDE
 from .vector import ZERO, along, dot, length, put, scale, sub, vector
@@ -60,7 +61,9 @@ def meet(land, balls, i, now, crowd, log):
     ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
     material = material_of(land, ball, ball['target'], normal)
     after_impact(land, ball, now, (supported, approach, rebound, restitution(material, rebound)), normal)
-    if is_caught(ball):
+    if ball['piled']:
+        leave(ball)
+    elif is_caught(ball):
         hold(land, ball, now)
 
 

@@ -4,10 +4,11 @@ from . import others, path
 from ._compile import kernel, shared
 from .crowd import Crowd, next_node
 from .detect import MOST_STEPS, PILE_NEAR, TANGENTIAL, TOUCH, box, safe_advance
-from .state import HOLED, REST, moves
+from .state import HOLED, PILED, REST, moves
 from .vector import ZERO, dot, length, sub, unit, vector
 
 UP = (0.0, 0.0, 1.0)
+STEADY = 0.02  # m/s of approach: so much gravity gives in a step of a pile
 
 
 @kernel
@@ -77,10 +78,16 @@ def first_touch_of(a, b, radius, begin, until):
 @kernel
 def is_held(ball, other, radius, now):
     """Whether the contact of a piled ball with another one is left to the pile."""
-    if other['piled']:
+    if ball['piled'] == PILED and other['piled'] == PILED:
         return True
-    gap, _, _ = gap_between(ball, other, radius, now)
-    return other['phase'] == REST and gap < PILE_NEAR
+    gap, rate, _ = gap_between(ball, other, radius, now)
+    return gap < PILE_NEAR and (other['phase'] == REST or other['piled'] and rate > -STEADY)
+
+
+@kernel
+def stays_in_reach(ball):
+    """Whether a ball of a pile touches nothing on its piece but what its contacts hold it off."""
+    return ball['piled'] == PILED and length(vector(ball['path'][5])) <= ball['reach']
 
 
 @others.meeting.register(Crowd)
@@ -93,6 +100,8 @@ def first_meeting(crowd, balls, i, radius, now):
     """First time at which ball `i`'s piece touches another ball, which, and whether it really does."""
     ball = balls[i]
     until = ball['end']
+    if stays_in_reach(ball) and not ball['watch']:
+        return until, -1, False
     low, high = box(ball, 0.0, until - now, radius)
     best = until
     who = -1

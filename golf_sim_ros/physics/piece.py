@@ -14,8 +14,9 @@ from .impact import cross_border
 from .ground.water import water_at
 from .integrators import step
 from .motion import STILL
-from .pile import next_instant
-from .state import BORDER, FLIGHT, HIT, ROLL, SLIDE, SPLASH, STEP, TIME_LIMIT, moves
+from .pair import stays_in_reach
+from .pile import go_straight, next_instant
+from .state import BORDER, FLIGHT, HIT, NO_PART, PILED, ROLL, SLIDE, SPLASH, STEP, TIME_LIMIT, moves
 from .vector import ZERO, along, cross, dot, put, scale, unit, vector
 
 LONGEST_SHOT = 300.0  # s
@@ -40,7 +41,10 @@ def lay_next(model, ball, now):
         return
     if ball['phase'] == FLIGHT:
         on = IN_THE_AIR
-        step(model, ball)
+        if ball['piled'] == PILED:
+            go_straight(ball, next_instant(now) - now)
+        else:
+            step(model, ball)
     until = ball['span']
     if ball['piled']:
         on = CAUGHT
@@ -53,7 +57,9 @@ def lay_next(model, ball, now):
     if on == ON_FLAT or on == ON_CURVE:
         until, crosses = first_border(model.land.ground, ball, model.land.ball.radius, until)
     border = until
-    until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
+    part, hit = NO_PART, False
+    if not stays_in_reach(ball):
+        until, part, hit = first_contact(model.land.ground, ball, model.land.ball.radius, until, on)
     if hit:
         ball['ending'] = HIT
         ball['target'] = part

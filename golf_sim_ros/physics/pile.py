@@ -1,36 +1,38 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Balls that lean on each other for good: piles, racks, two balls in a bowl.
+"""Balls that lean on balls for good: piles, racks, two balls in a bowl.
 
 There impacts follow each other ever faster. Such balls are piled: they move in small steps of time, all at
-the same instants. At each of them their contacts are solved together (Moreau's time stepping: projected
-Gauss-Seidel on the impulses, with friction, then projected positions). A contact that is yet to close
-may close just up to its gap. What has been calm for a while falls asleep, and awakes when it is touched or
-when what it leans on sets off.
+the same instants, at each of which their contacts are solved together (pressing.py). A ball that nothing
+holds any more flies on, one that only the ground holds rolls on. What has been calm for a while falls
+asleep, and awakes when it is touched or when what it leans on sets off.
+
+The velocity of a ball of a pile is that half-way through its step, so that a step in free fall is exact; one
+that has just joined has its own.
 """
 from math import floor
 
 from . import others
 from ._compile import kernel, shared
 from .caught import MANY_STALLS, is_caught, presses
-from .contact import material_of, settle, stand_on
+from .contact import settle, stand_on
 from .crowd import CONTACTS, MEMBERS, Crowd, next_node
 from .detect import PILE_NEAR
+from .effects import pull
 from .ground import surface
-from .pair import UP, place_at, velocity_at
-from .state import FLIGHT, HOLED, NO_PART, REST, SLIDE, moves
-from .together import bring, enlist, give, is_new, new_contact, rate_of, sliding_of
-from .vector import ZERO, along, dot, length, put, scale, sub, unit, vector
+from .pair import place_at
+from .path import lay
+from .pressing import (PILE_STEP, ball_contact, closing, far_reach, ground_contacts, neighbours,
+                       part_overlaps, press)
+from .state import FLIGHT, HOLED, JOINED, NO_PART, PILED, REST, SLIDE
+from .together import bring, enlist
+from .vector import ZERO, along, length, put, scale, sub, vector
 
-PILE_STEP = 1.0 / 512.0  # s; a power of two, so that instants are the same for all
-SWEEPS = 40
-DONE = 1e-5  # m/s: a sweep that changes less is the last
-SHIFTS = 6  # sweeps over positions
 PUSHED = 1e-3  # m/s of approach wake a sleeper
 CREEP = 0.02  # m/s: what moves slower in a pile is damped, for the sweeps never quite end
 DAMPED = 0.9
 CALM = 4e-3  # m/s
 CALM_STEPS = 50
-FREE = 1.0  # m/s: faster than this a ball flies on its own
+FREE = 2.0  # m/s: faster than this a ball flies on its own
 
 
 @kernel
@@ -48,11 +50,29 @@ def is_instant(now):
 @kernel
 def pile_up(ball):
     """Make a ball one of a pile."""
-    ball['piled'] = 1
+    ball['piled'] = JOINED
     ball['stalled'] = MANY_STALLS + 1
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
     ball['calm'] = 0
+    ball['pressing'] = 0
+
+
+@kernel
+def leave(ball):
+    """Let a ball be no longer one of a pile."""
+    ball['piled'] = 0
+    ball['stalled'] = 0
+
+
+@kernel
+def go_straight(ball, span):
+    """Lay a straight piece of `span` seconds. Writes the curve."""
+    v = vector(ball['velocity'])
+    ball['span'] = span
+    put(ball['origin'], vector(ball['position']))
+    put(ball['twist'][3], vector(ball['spin']))
+    lay(ball, scale(span, v), (v, v), (ZERO, ZERO), (ZERO, ZERO))
 
 
 @shared
@@ -110,118 +130,61 @@ def hold_pile(land, balls, now, crowd):
         if balls[i]['piled'] and crowd.ends[i] == now and crowd.places[i] < 0:
             enlist(crowd, i)
             bring(balls[i], now)
-    find_contacts(land, balls, crowd, now)
-    for sweep in range(SWEEPS):
-        if press_once(land, balls, crowd, sweep % 2 == 1) <= DONE:
-            break
     for k in range(crowd.count[MEMBERS]):
-        balls[crowd.members[k]]['braking'] = 0.0
-        balls[crowd.members[k]]['held'] = 0
-        put(balls[crowd.members[k]]['normal'], ZERO)
-        balls[crowd.members[k]]['support'] = NO_PART
+        speed_up(land, balls, crowd, crowd.members[k])
+    find_contacts(land, balls, crowd, now)
+    part_overlaps(balls, crowd)
+    press(land, balls, crowd)
+    for k in range(crowd.count[MEMBERS]):
+        ball = balls[crowd.members[k]]
+        put(ball['velocity'], vector(crowd.before[crowd.members[k], 0:3]))
+        put(ball['spin'], vector(crowd.before[crowd.members[k], 3:6]))
+        ball['braking'] = 0.0
+        ball['held'] = 0
+        put(ball['normal'], ZERO)
+        ball['support'] = NO_PART
     for n in range(crowd.count[CONTACTS]):
         hold_up(land, balls, crowd.contacts[n])
-    for sweep in range(SHIFTS):
-        shift_once(land, balls, crowd)
     for k in range(crowd.count[MEMBERS]):
         let_go(land, balls[crowd.members[k]], now)
 
 
 @kernel
+def speed_up(land, balls, crowd, i):
+    """Let gravity act on member `i` up to half-way through its next step. Writes before and piled."""
+    ball = balls[i]
+    time = PILE_STEP if ball['piled'] == PILED else 0.5 * PILE_STEP
+    ball['piled'] = PILED
+    weight = pull(land.effects, vector(ball['position']))
+    put(crowd.before[i, 0:3], along(vector(ball['velocity']), time, weight))
+    put(crowd.before[i, 3:6], vector(ball['spin']))
+
+
+@shared
 def find_contacts(land, balls, crowd, now):
-    """Contacts of the members, with what is near and what they may reach. Writes contacts, members."""
-    radius = land.ball.radius
-    fastest = 0.0
-    for k in range(crowd.count[MEMBERS]):
-        fastest = max(fastest, length(vector(balls[crowd.members[k]]['velocity'])))
-    reach = PILE_NEAR + 2.0 * PILE_STEP * fastest
+    """Contacts of the members with all that they may reach. Writes contacts, members and their reach."""
+    reach = far_reach(crowd)
     k = 0
     while k < crowd.count[MEMBERS]:
         i = crowd.members[k]
-        ball = balls[i]
-        here = vector(ball['position'])
-        find_ground(land, ball, i, crowd)
-        low, high = surface.around(here, radius + reach)
-        at = next_node(crowd, 0, low, high)
-        while at >= 0:
-            j = crowd.nodes[at]['ball']
-            at = next_node(crowd, at + 1, low, high)
-            other = balls[j]
-            if j == i or other['phase'] == HOLED or 0 <= crowd.places[j] < k:
-                continue
-            apart = sub(here, place_at(other, now))
-            gap = length(apart) - 2.0 * radius
-            if gap > reach:
-                continue
-            normal = unit(apart, UP)
-            rate = dot(sub(vector(ball['velocity']), velocity_at(other, now)), normal)
-            if crowd.places[j] < 0 and moves(other['phase']):
-                continue  # it comes by itself
-            if crowd.places[j] < 0 and (rate < -PUSHED or other['leans'] and rate > PUSHED):
-                enlist(crowd, j)
-                pile_up(other)
-            together_with = j if crowd.places[j] >= 0 else -1
-            row = new_contact(crowd, i, together_with, -2, normal)
-            if row >= 0:
-                set_contact(crowd.contacts[row], gap, 0.5 if together_with >= 0 else 1.0,
-                            (land.ball.friction, 0.0), land.ball)
+        ground_contacts(land, balls[i], i, crowd, reach)
+        found, watch = neighbours(balls, crowd, i, reach, land.ball.radius, now)
+        balls[i]['reach'] = reach
+        balls[i]['watch'] = watch
+        for n in range(found):
+            j = crowd.near[n]
+            if 0 <= crowd.places[j] < k:
+                continue  # has this contact already
+            if crowd.places[j] < 0:
+                if balls[j]['phase'] != REST:
+                    continue  # it comes by itself
+                rate = closing(balls, i, j, now)
+                if rate < -PUSHED or balls[j]['leans'] and rate > PUSHED:
+                    pile_up(balls[j])
+                    enlist(crowd, j)
+                    speed_up(land, balls, crowd, j)
+            ball_contact(land, balls, crowd, i, j, now)
         k += 1
-
-
-@kernel
-def find_ground(land, ball, i, crowd):
-    """Contacts of a member with the ground. Writes contacts."""
-    begin = crowd.count[CONTACTS]
-    place = vector(ball['position'])
-    low, high = surface.around(place, land.ball.radius + PILE_NEAR)
-    part = surface.next_part(land.ground, 0, low, high)
-    while part >= 0:
-        distance, normal = surface.nearest(land.ground, part, place)
-        gap = distance - land.ball.radius
-        if gap <= PILE_NEAR and is_new(crowd, begin, normal) and surface.touchable(land.ground, part, place):
-            row = new_contact(crowd, i, -1, part, normal)
-            if row >= 0:
-                material = material_of(land, ball, part, normal)
-                set_contact(crowd.contacts[row], gap, 1.0,
-                            (material['dynamic_friction'], material['rolling_resistance']), land.ball)
-        part = surface.next_part(land.ground, part + 1, low, high)
-
-
-@kernel
-def set_contact(row, gap, share, material, record):
-    """Fill in a contact: its gap, share of a ball's mass, friction and rolling resistance."""
-    row['ahead'] = gap
-    row['mass'] = share * record.mass
-    row['friction'] = material[0]
-    row['shared'] = material[1]
-    row['push'] = 0.0
-    put(row['rub'], ZERO)
-
-
-@kernel
-def press_once(land, balls, crowd, backward):
-    """One sweep over all contacts. Writes motion and impulses; returns the greatest change [m/s]."""
-    most = 0.0
-    count = crowd.count[CONTACTS]
-    for k in range(count):
-        row = crowd.contacts[count - 1 - k if backward else k]
-        room = max(row['ahead'], 0.0) / PILE_STEP
-        wanted = row['push'] - row['mass'] * (rate_of(balls, row) + room)
-        push = max(wanted, 0.0)
-        change = push - row['push']
-        row['push'] = push
-        if change != 0.0:
-            give(land, balls, row, scale(change, vector(row['normal'])))
-            most = max(most, abs(change) / row['mass'])
-        if push > 0.0:
-            grip = row['mass'] * land.ball.inertia / (1.0 + land.ball.inertia)
-            rub = along(vector(row['rub']), -grip, sliding_of(land, balls, row))
-            size = length(rub)
-            if size > row['friction'] * push:
-                rub = scale(row['friction'] * push / size, rub)
-            give(land, balls, row, sub(rub, vector(row['rub'])))
-            put(row['rub'], rub)
-    return most
 
 
 @kernel
@@ -237,30 +200,9 @@ def hold_up(land, balls, row):
             balls[row['b']]['held'] += 2
         return
     ball['held'] += 1
-    ball['braking'] += row['shared'] * row['push'] / land.ball.mass
+    ball['braking'] += row['shared'] * row['push']
     if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
         stand_on(land, ball, surface.support_of(land.ground, row['part']), normal)
-
-
-@kernel
-def shift_once(land, balls, crowd):
-    """Push apart what overlaps. Writes positions."""
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
-        a = balls[row['a']]
-        place = vector(a['position'])
-        if row['part'] >= 0:
-            distance, normal = surface.nearest(land.ground, row['part'], place)
-            if distance < land.ball.radius:
-                put(a['position'], along(place, land.ball.radius - distance, normal))
-        elif row['b'] >= 0:
-            b = balls[row['b']]
-            apart = sub(place, vector(b['position']))
-            overlap = 2.0 * land.ball.radius - length(apart)
-            if overlap > 0.0:
-                normal = unit(apart, UP)
-                put(a['position'], along(place, 0.5 * overlap, normal))
-                put(b['position'], along(vector(b['position']), -0.5 * overlap, normal))
 
 
 @kernel
@@ -279,16 +221,14 @@ def let_go(land, ball, now):
     ball['step'] = 0.0
     if ball['calm'] > CALM_STEPS:
         ball['leans'] = 1 if ball['held'] > 1 else 0
-        ball['piled'] = 0
-        ball['stalled'] = 0
+        leave(ball)
         put(ball['velocity'], ZERO)
         put(ball['spin'], ZERO)
         ball['phase'] = REST
-    elif ball['held'] == 0 or speed > FREE:
-        ball['piled'] = 0
-        ball['stalled'] = 0
-    elif ball['held'] == 1 and ball['support'] != NO_PART:
-        ball['piled'] = 0
-        ball['stalled'] = 0
-        ball['phase'] = SLIDE
-        settle(land, ball, now)
+    elif ball['held'] == 0 or speed > FREE or ball['held'] == 1 and ball['support'] != NO_PART:
+        leave(ball)
+        weight = pull(land.effects, vector(ball['position']))
+        put(ball['velocity'], along(vector(ball['velocity']), -0.5 * PILE_STEP, weight))
+        if ball['held'] == 1 and ball['support'] != NO_PART:
+            ball['phase'] = SLIDE
+            settle(land, ball, now)

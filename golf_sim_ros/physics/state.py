@@ -40,6 +40,8 @@ class Shot(NamedTuple):
 STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, MEETING, SPLASH = range(9)
 
 NO_PART = -1
+JOINED, PILED = 1, 2  # of a ball in a pile: only just, or for a step
+REMEMBERED = 12  # contacts of a ball in a pile whose impulses are remembered
 
 BALL = np.dtype([
     # as of the last tick
@@ -48,8 +50,12 @@ BALL = np.dtype([
     # bounces, too small to follow one by one, go on, and how hard they press meanwhile, over m g
     ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
     # in a pile: whether it is, for how many steps it has been calm, what holds it (1 for the ground, 2
-    # for a ball, summed), rolling resistance [m/s]; asleep: whether it leans on a ball
-    ('piled', 'i8'), ('calm', 'i8'), ('held', 'i8'), ('braking', 'f8'), ('leans', 'i8'),
+    # for a ball, summed), rolling resistance [m/s]; how far around all contacts are known, and whether other
+    # balls are on their way there; asleep: whether it leans on a ball
+    ('piled', 'i8'), ('calm', 'i8'), ('held', 'i8'), ('braking', 'f8'), ('reach', 'f8'), ('watch', 'i8'),
+    ('leans', 'i8'),
+    # its contacts in the last step: how many, with what, their push and rub over mass [m/s]
+    ('pressing', 'i8'), ('pressed_by', 'i8', REMEMBERED), ('pressed', 'f8', (REMEMBERED, 4)),
     # number of the water that it is in, from 1; 0: none
     ('water', 'i8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
@@ -68,11 +74,14 @@ BALL = np.dtype([
 # What counts of a ball that does not move: the rest is written when it sets off.
 STANDING = ('position', 'velocity', 'spin', 'phase', 'support', 'material', 'normal', 'tail_end',
             'tail_press', 'leans')
+PRESSED = ('pressing', 'pressed_by', 'pressed')  # the same of a ball that is not in a pile
 
 
 def plain(ball):
     """All that counts of a `BALL` record, as numbers and lists by name."""
     names = BALL.names if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
+    if not ball['piled']:
+        names = [name for name in names if name not in PRESSED]
     return {name: ball[name].tolist() for name in names}
 
 

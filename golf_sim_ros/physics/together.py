@@ -113,13 +113,19 @@ def _gather_balls(crowd, land, balls, i, now):
                 continue
             enlist(crowd, j)
             bring(balls[j], now)
-        n = new_contact(crowd, i, j, -1, unit(apart, UP))
-        if n >= 0:
-            row = crowd.contacts[n]
-            row['restitution'] = land.ball.restitution
-            row['tangential'] = 0.0
-            row['friction'] = land.ball.friction
-            row['mass'] = 0.5 * land.ball.mass
+        ball_contact(land, balls, i, j, crowd, now)
+
+
+@kernel
+def ball_contact(land, balls, i, j, crowd, now):
+    """Add the contact of balls `i` and `j`."""
+    n = new_contact(crowd, i, j, -1, unit(sub(place_at(balls[i], now), place_at(balls[j], now)), UP))
+    if n >= 0:
+        row = crowd.contacts[n]
+        row['restitution'] = land.ball.restitution
+        row['tangential'] = 0.0
+        row['friction'] = land.ball.friction
+        row['mass'] = 0.5 * land.ball.mass
 
 
 @kernel

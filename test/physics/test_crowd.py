@@ -5,7 +5,7 @@ from itertools import permutations
 import numpy as np
 import pytest
 
-from golf_sim_ros.physics import Ball, Course, Material, Phase, Plane, Restitution, World
+from golf_sim_ros.physics import Ball, Course, Material, Patch, Phase, Plane, Restitution, World
 
 RADIUS = Ball().radius
 IDEAL = Material('ideal', Restitution(1.0))
@@ -181,3 +181,35 @@ def test_several_balls_play_on_from_a_state_as_they_would_have():
     for each in (world, other):
         each.advance(10.0)
     assert np.array_equal(motion(world, world.names), motion(other, world.names))
+
+
+def overlaps(world):
+    """How deep [m] the two balls that overlap most do."""
+    places = motion(world, world.names)[0]
+    apart = np.linalg.norm(places[:, None] - places[None], axis=2) + 10 * RADIUS * np.eye(len(places))
+    return 2 * RADIUS - apart.min()
+
+
+def box(side, height=2.0):
+    """Floor and four walls around the origin."""
+    walls = [Patch((0.5 * side * x, 0.5 * side * y, 0.5 * height), (-x, -y, 0), 0.0,
+                   side + 0.1, height, FLOOR)
+             for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+    return (Plane(material=FLOOR), *walls)
+
+
+@pytest.mark.parametrize('count', [20, 60])
+def test_balls_poured_into_a_box_come_to_rest_within_20_s_without_overlap_and_stay(count):
+    side, random = 0.2, np.random.default_rng(count)
+    course = Course(box(side), tee=(0.0, 500.0), ball=Ball(restitution=0.5, friction=0.2),
+                    effects=('gravity', 'ball_ball'))
+    world = World(course, count)
+    for k, name in enumerate(world.names):
+        place = 0.06 * np.array((k % 3 - 1, k // 3 % 3 - 1, k // 9)) + (0.0, 0.0, 0.1)
+        world.place(name, place + (*random.uniform(-5e-3, 5e-3, 2), 0.0), velocity=(0.0, 0.0, 0.0))
+    world.advance(20.0)
+    assert not world.moving and overlaps(world) < 1e-4
+    places = motion(world, world.names)[0]
+    assert np.abs(places[:, :2]).max() < 0.5 * side - RADIUS + 1e-4 and places[:, 2].min() > RADIUS - 1e-4
+    world.advance(60.0)
+    assert np.array_equal(motion(world, world.names)[0], places)

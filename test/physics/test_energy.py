@@ -103,8 +103,9 @@ def of(*values):
 
 materials = st.builds(
     Material, of('any'), st.builds(Restitution, numbers(0, 1), of(0.0), of(0.0), numbers(0, 0.2)),
-    numbers(-1, 1), numbers(0, 2), numbers(0, 2), numbers(0.01, 2), numbers(0.0, 0.01), numbers(0, 1.5),
-    of(()))
+    numbers(-1, 1), numbers(0, 2), numbers(0, 2), numbers(0.01, 2),
+    of(0.0) | numbers(1e-4, 0.01),  # with less a ball turns on the spot for hours, and ends all the same
+    numbers(0, 1.5), of(()))
 patches = st.builds(
     Patch, st.tuples(numbers(-3, 3), numbers(-3, 3), numbers(0, 1)),
     vectors(1).filter(lambda n: np.linalg.norm(n) > 0.1).map(
