@@ -40,18 +40,21 @@ def sheet():
     return Mesh(np.c_[x, y, z], faces, HARD)
 
 
-def at_a_sheet(shape, deep, count, accuracy, seed):
-    """Shots from above at a `shape`; `deep` says how far the ball is out of it, signed, if over it."""
+def at_a_sheet(shape, deep, count, accuracy, seed, top=lambda x: 0.0):
+    """Shots from above at a `shape`; `deep` says how far the ball is out of it, signed, if over it.
+
+    ``top`` is a height over which it is clear, at x.
+    """
     random = np.random.default_rng(seed)
     world = World(Course((Plane((0, 0, -9), material=HARD), shape), effects=GRAVITY), accuracy=accuracy)
     off = 0
     for way, speed, spin in zip(*shots(random, count)):
         aim, far = random.uniform(-1.0, 1.0, 2), random.uniform(0.1, 2.0)
-        start = np.array((*aim, 0.0)) - far * way
-        start[2] = max(start[2], 0.0) + 1.2
+        start = np.array((*aim, RADIUS)) - far * way
+        start[2] = max(start[2], top(start[0]) + RADIUS)
         world.place('ball', start, speed * way, spin)
         for _ in range(LOOKS):
-            world.advance(2.5 * far / max(speed, 5.0) / LOOKS)
+            world.advance(3.0 * far / max(speed, 5.0) / LOOKS)
             place = np.array(world['ball'].position)
             if np.abs(place[:2]).max() < HALF - 0.1 and deep(place) < -DEEP:
                 off += 1
@@ -80,7 +83,7 @@ def over_mesh(mesh):
 def at_the_mesh(count, accuracy, seed=1):
     """At a crumpled sheet of triangles."""
     mesh = sheet()
-    return at_a_sheet(mesh, over_mesh(mesh), count, accuracy, seed)
+    return at_a_sheet(mesh, over_mesh(mesh), count, accuracy, seed, lambda x: 0.2)
 
 
 def at_the_patch(count, accuracy, seed=2):
@@ -99,7 +102,8 @@ def at_the_step(count, accuracy, seed=3):
         if abs(place[0] - 0.25) < 2.5:
             return np.inf if place[2] > -0.2 else -1.0
         return place[2] - (1.0 if place[0] > 0 else 0.0) + 0.02
-    return at_a_sheet(Heightmap(heights, (-4.0, -4.0), 0.5, HARD), clear, count, accuracy, seed)
+    return at_a_sheet(Heightmap(heights, (-4.0, -4.0), 0.5, HARD), clear, count, accuracy, seed,
+                      lambda x: 0.15 if x < -2.0 else 1.2)
 
 
 def at_the_stick(count, accuracy, seed=4):
