@@ -62,7 +62,8 @@ def split(parameters):
 def drag_and_lift(laws, ratio, reynolds):
     """Drag and lift coefficients, arrays."""
     drag, lift = laws
-    pairs = [(cd(drag, s, re), s * cl(lift, s, re)) for s, re in zip(np.ravel(ratio), np.ravel(reynolds))]
+    pairs = [(cd(drag, s * s, re * re), s * cl(lift, s * s, re * re))
+             for s, re in zip(np.ravel(ratio), np.ravel(reynolds))]
     return np.array(pairs).T
 
 

@@ -16,7 +16,7 @@ from .crowd import MEMBERS, first_due
 from .effects import blow
 from .ground import surface
 from .impact import cross_border, meet
-from .piece import LONGEST_SHOT, launch, lay_next, read, stop_slip
+from .piece import LONGEST_SHOT, drift, launch, lay_next, read, stop_slip
 from .shot import end_shot, keep_highest, tee_off, tell_gone
 from .splash import drown, emerge, is_over, splash
 from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, HOLED, LAUNCH, LOST, MEETING, OUT, REST, SHOT_ENDS,
@@ -85,7 +85,10 @@ def resolve(model, balls, i, crowd, log):
     elif ball['water'] > 0 and ending == HIT:
         drown(ball)
     elif ending == HIT:
+        before = ball['tail_end']
         meet(model.land, balls, i, now, crowd, log)
+        if ball['tail_end'] > max(before, now):
+            drift(model, ball, now)
     elif ending == MEETING:
         others.bump(crowd, model.land, balls, i, now, log)
         others.rouse(crowd, balls, model.land.ball.radius, now)
@@ -201,3 +204,4 @@ def end_now(ball, now):
     if ball['phase'] == FLIGHT:
         ball['end'] = now
         ball['ending'] = STEP
+        ball['rated'] = -1.0

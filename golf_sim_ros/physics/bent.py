@@ -9,14 +9,14 @@ geometric series, and what is left is taken at once when it no longer counts.
 from math import inf
 
 from ._compile import kernel, shared
-from .contact import in_tail, settle
+from .contact import in_tail, settle, take_slip
 from .ground import surface
 from .impulse import slip
 from .integrators import step
 from .motion import STILL, following_rates, material_under, unwinding
 from .path import lay, position
 from .state import FLIGHT, ROLL, SLIDE, moves
-from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
+from .vector import ZERO, along, cross, dot, length, put, scale, sub, vector
 
 MOST_TURN = 0.1  # rad of the normal in a step
 FIRST_STEP = 0.02  # s
@@ -97,16 +97,13 @@ def rest_of_motion(land, ball, force, grips, now):
     v = vector(ball['velocity'])
     normal = vector(ball['normal'])
     r = land.ball.radius
-    k = land.ball.inertia
     about = dot(vector(ball['spin']), normal)
     if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(land):
         put(ball['spin'], along(vector(ball['spin']), -about, normal))
     if ball['phase'] == SLIDE:
         u = slip(v, vector(ball['spin']), normal, r)
         if grips and length(u) <= slip_limit(land):
-            push = scale(-k / (1.0 + k), u)
-            put(ball['velocity'], add(v, push))
-            put(ball['spin'], along(vector(ball['spin']), -1.0 / (k * r), cross(normal, push)))
+            take_slip(land, ball)
             ball['phase'] = ROLL
         return
     slowing = -dot(force, v)

@@ -42,6 +42,17 @@ def material_of(land, ball, part, normal):
 
 
 @kernel
+def take_slip(land, ball):
+    """Let grip take all slip at once, as an impulse. Writes velocity and spin."""
+    normal = vector(ball['normal'])
+    r = land.ball.radius
+    k = land.ball.inertia
+    push = scale(-k / (1.0 + k), slip(vector(ball['velocity']), vector(ball['spin']), normal, r))
+    put(ball['velocity'], add(vector(ball['velocity']), push))
+    put(ball['spin'], along(vector(ball['spin']), -1.0 / (k * r), cross(normal, push)))
+
+
+@kernel
 def in_tail(ball, now):
     """Whether the ball's last, tiny bounces are still going on."""
     return ball['tail_end'] > now

@@ -143,11 +143,10 @@ def wall_rebound(land, ball):
 def settle_speed(land, ball):
     """Rebound below which the rest of the bounces is summed: less for a fast ball.
 
-    The sum leaves out what the air does meanwhile, which goes with the square of the speed, and
-    the ball carries that on for a time that goes with the speed.
+    The air takes its share of the sum at once, a little early: that is an error of place that goes with the
+    square of the speed, and of the time that the bounces last.
     """
-    speed = length(vector(ball['velocity'])) / SLOW
-    return max(land.limits.settle / (1.0 + speed * speed * speed), LEAST_SETTLE)
+    return max(land.limits.settle / (1.0 + length(vector(ball['velocity'])) / SLOW), LEAST_SETTLE)
 
 
 @shared

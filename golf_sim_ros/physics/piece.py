@@ -6,9 +6,10 @@ from . import path
 from ._compile import borrowed, entry, kernel, shared
 from .bent import bent_piece
 from .caught import caught_step, is_caught
-from .contact import flat_piece, heading, material_number, settle, stand_on
+from .contact import flat_piece, heading, material_number, settle, stand_on, take_slip
 from .detect import CAUGHT, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_border, first_contact
 from .dip import first_dip
+from .effects import flight_rates, pull
 from .ground import surface
 from .impact import cross_border
 from .ground.water import water_at
@@ -17,11 +18,12 @@ from .motion import STILL
 from .pair import stays_in_reach
 from .pile import go_straight, next_instant
 from .state import BORDER, FLIGHT, HIT, NO_PART, PILED, ROLL, SLIDE, SPLASH, STEP, TIME_LIMIT, moves
-from .vector import ZERO, along, cross, dot, put, scale, unit, vector
+from .vector import ZERO, along, cross, dot, length, put, scale, sub, tangential, unit, vector
 
 LONGEST_SHOT = 300.0  # s
 ENDLESS = 100  # pieces of no length, one after the other: a contact that never ends is let go for a MOMENT
 MOMENT = 1e-9  # s: at most 0.15 micrometres
+LEAST_PRESS = 0.1  # of its weight: what lift leaves of it, at least, while a ball's last bounces go on
 SINKING_STEP = 0.02  # s: so often a sinking ball is asked whether it has come far enough
 
 
@@ -105,6 +107,32 @@ def lay_contact(model, ball, now):
     ball['material'] = material_number(land, ball, ball['support'], normal)
     bent_piece(model, ball, now)
     return ON_CURVE if surface.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
+
+
+@shared
+def drift(model, ball, now):
+    """Let the air do at once what it does during bounces too small to follow. Writes motion and tail.
+
+    It brakes and turns; where it lifts, the bounces last longer and press less.
+    """
+    place = vector(ball['position'])
+    v = vector(ball['velocity'])
+    normal = vector(ball['normal'])
+    weight = pull(model.effects, place)
+    force, torque = flight_rates(model.effects, model.land.ground, place, v, vector(ball['spin']))
+    press = -dot(weight, normal)
+    longer = press / max(-dot(force, normal), LEAST_PRESS * press)
+    force = tangential(sub(force, weight), normal)
+    time = longer * (ball['tail_end'] - now)
+    ball['tail_end'] = now + time
+    ball['tail_press'] /= longer
+    put(ball['spin'], along(vector(ball['spin']), time, torque))
+    speed = length(v)
+    if speed > STILL:
+        left = max(speed + time * dot(force, v) / speed, 0.0)
+        put(ball['velocity'], scale(left, unit(along(v, time, force), ZERO)))
+        if ball['phase'] == ROLL:
+            take_slip(model.land, ball)
 
 
 @kernel

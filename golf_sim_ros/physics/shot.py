@@ -5,6 +5,8 @@ from ._compile import entry, kernel
 from .state import FLIGHT, GONE, LAUNCH, REST, moves
 from .vector import ZERO, put, vector
 
+TOP = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
+
 
 @kernel
 def keep_highest(ball):
@@ -18,15 +20,27 @@ def keep_highest(ball):
         return
     low = 0.0
     high = time
-    if path.velocity(ball, low)[2] <= 0.0 or path.velocity(ball, high)[2] >= 0.0:
+    rising = path.velocity(ball, low)[2]
+    falling = path.velocity(ball, high)[2]
+    if rising <= 0.0 or falling >= 0.0:
         return
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        if path.velocity(ball, middle)[2] > 0.0:
-            low = middle
+    moved = 0
+    for _ in range(50):  # regula falsi; an end that stays twice loses half of its weight (Illinois)
+        apex = (low * falling - high * rising) / (falling - rising)
+        speed = path.velocity(ball, apex)[2]
+        if abs(speed) < TOP:
+            break
+        if speed > 0.0:
+            falling *= 0.5 if moved > 0 else 1.0
+            low = apex
+            rising = speed
+            moved = 1
         else:
-            high = middle
-    ball['highest'] = max(ball['highest'], path.position(ball, low)[2])
+            rising *= 0.5 if moved < 0 else 1.0
+            high = apex
+            falling = speed
+            moved = -1
+    ball['highest'] = max(ball['highest'], path.position(ball, apex)[2])
 
 
 @kernel

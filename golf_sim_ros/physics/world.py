@@ -252,6 +252,7 @@ class World:
         flying = self._balls['phase'] == FLIGHT
         self._balls['end'][flying] = self._now
         self._balls['ending'][flying] = STEP
+        self._balls['rated'][flying] = -1.0
 
     def advance(self, dt):
         """Let `dt` seconds pass.

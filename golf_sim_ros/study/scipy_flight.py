@@ -48,12 +48,13 @@ def rates(records, wind, radius):
         _, _, z, vx, vy, vz, wx, wy, wz = state
         share = profile.weight * log(1.0 + max(z, 0.0) / profile.parameter) if profile else 0.0
         ux, uy, uz = vx - share * wind[0], vy - share * wind[1], vz - share * wind[2]
-        speed = sqrt(ux * ux + uy * uy + uz * uz)
-        ratio = radius * sqrt(wx * wx + wy * wy + wz * wz) / speed
-        k = -drag.push * cd(drag.law, ratio, drag.reynolds * speed) * speed
+        vv = ux * ux + uy * uy + uz * uz
+        speed, rr = sqrt(vv), magnus.reynolds * magnus.reynolds * vv
+        ss = radius * radius * (wx * wx + wy * wy + wz * wz) / vv
+        k = -drag.push * cd(drag.law, ss, rr) * speed
         cx, cy, cz = wy * uz - wz * uy, wz * ux - wx * uz, wx * uy - wy * ux
-        ratio = radius * sqrt(cx * cx + cy * cy + cz * cz) / (speed * speed)
-        lift = magnus.push * radius * cl(magnus.law, ratio, magnus.reynolds * speed)
+        ss = radius * radius * (cx * cx + cy * cy + cz * cz) / (vv * vv)
+        lift = magnus.push * radius * cl(magnus.law, ss, rr)
         d = -decay.rate * speed
         return (vx, vy, vz, k * ux + lift * cx, k * uy + lift * cy, k * uz + lift * cz - g,
                 d * wx, d * wy, d * wz)

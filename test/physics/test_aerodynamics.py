@@ -93,7 +93,7 @@ RATIO, REYNOLDS = np.meshgrid(np.geomspace(1e-6, 3.0, 120), np.geomspace(1e3, 4e
 def coefficients(ratio, reynolds):
     """Drag and lift coefficients."""
     cd, cl = plain(drag_coefficient), plain(lift_per_ratio)
-    return np.array([(cd(DragLaw(), s, re), s * cl(LiftLaw(), s, re))
+    return np.array([(cd(DragLaw(), s * s, re * re), s * cl(LiftLaw(), s * s, re * re))
                      for s, re in zip(ratio.ravel(), reynolds.ravel())]).T
 
 

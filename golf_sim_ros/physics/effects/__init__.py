@@ -108,10 +108,16 @@ def pull(effects, position):
 
 
 @kernel
+def meet_air(effects, ground, position, velocity, spin):
+    """`Flow` of the air around a flying ball."""
+    through_air = sub(velocity, wind_at(effects, ground, position))
+    return laws.Flow(through_air, length(through_air), spin, position, velocity)
+
+
+@kernel
 def flight_rates(effects, ground, position, velocity, spin):
     """Acceleration and rate of change of spin of a flying ball."""
-    through_air = sub(velocity, wind_at(effects, ground, position))
-    flow = laws.Flow(through_air, length(through_air), spin, position, velocity)
+    flow = meet_air(effects, ground, position, velocity, spin)
     force = ZERO
     torque = ZERO
     for effect in literal_unroll(effects):
@@ -131,11 +137,12 @@ def sinking(effects, position, velocity):
 
 
 @kernel
-def longest_step(effects, position, velocity):
-    """Longest step of flight [s] that can't overlook any effect."""
+def longest_step(effects, ground, position, velocity, spin, force):
+    """Longest step [s] that can't overlook any effect, of a flying ball that `force` accelerates [m/s^2]."""
+    flow = meet_air(effects, ground, position, velocity, spin)
     longest = inf
     for effect in literal_unroll(effects):
-        longest = min(longest, laws.longest_step(effect, position, velocity))
+        longest = min(longest, laws.longest_step(effect, flow, force))
     return longest
 
 

@@ -5,8 +5,10 @@ from typing import NamedTuple
 
 from .. import air
 from .._compile import kernel
-from ..vector import length, scale
+from ..vector import ZERO, dot, scale
 from . import laws
+
+NO_FLOW = 1e-18  # m^2/s^2: air that passes slower than the root of this does nothing
 
 
 class DragLaw(NamedTuple):
@@ -43,23 +45,26 @@ class Drag(NamedTuple):
 
 
 @kernel
-def drag_coefficient(law, ratio, reynolds):
-    """Drag coefficient at the spin ratio `ratio` and Reynolds number `reynolds`; see `DragLaw`."""
-    ss = ratio * ratio
-    c = reynolds * reynolds / (law.crisis_at * law.crisis_at)
-    b = reynolds * reynolds / (law.slow_at * law.slow_at)
-    q = reynolds * reynolds / (law.high_at * law.high_at)
-    return (law.base + law.high * q / (1.0 + q)
-            + law.spin * (1.0 + law.slow / (1.0 + b * b)) * ss / (ss + law.half * law.half)
-            + law.crisis / ((1.0 + c * c) * (1.0 + ss / (law.fade * law.fade))))
+def drag_coefficient(law, ss, rr):
+    """Drag coefficient at the squares of spin ratio, `ss`, and Reynolds number, `rr`; see `DragLaw`."""
+    # Squares take no roots, and common denominators few divisions: this is most of what a flight costs.
+    high = law.high_at * law.high_at
+    slow = law.slow_at ** 4
+    crisis = law.crisis_at ** 4
+    fade = law.fade * law.fade
+    return (law.base + law.high * rr / (high + rr)
+            + law.spin * ss * (slow * (1.0 + law.slow) + rr * rr)
+            / ((slow + rr * rr) * (ss + law.half * law.half))
+            + law.crisis * crisis * fade / ((crisis + rr * rr) * (fade + ss)))
 
 
 @laws.acceleration.register(Drag)
 def _acceleration(effect, flow):
-    if flow.speed == 0.0:
-        return 0.0, 0.0, 0.0
-    ratio = effect.radius * length(flow.spin) / flow.speed
-    coefficient = drag_coefficient(effect.law, ratio, effect.reynolds * flow.speed)
+    vv = dot(flow.velocity, flow.velocity)
+    if vv < NO_FLOW:
+        return ZERO
+    ss = effect.radius * effect.radius * dot(flow.spin, flow.spin) / vv
+    coefficient = drag_coefficient(effect.law, ss, effect.reynolds * effect.reynolds * vv)
     return scale(-effect.push * coefficient * flow.speed, flow.velocity)
 
 

@@ -45,12 +45,12 @@ def _acceleration(effect, flow):
 
 
 @laws.longest_step.register(Foliage)
-def _longest_step(effect, position, velocity):
-    speed = length(velocity)
+def _longest_step(effect, flow, force):
+    speed = length(flow.over_ground)
     way = inf
     for i in range(len(effect.bodies)):
         body = effect.bodies[i]
-        way = min(way, max(clearance(body, position), FINE * body['radius']))
+        way = min(way, max(clearance(body, flow.position), FINE * body['radius']))
     return way / speed if speed > 0.0 else inf
 
 

@@ -44,8 +44,8 @@ def spin_rate(effect, flow):
 
 
 @generic
-def longest_step(effect, position, velocity):
-    """Longest step of flight [s] from `position` that can't overlook `effect`."""
+def longest_step(effect, flow, force):
+    """Longest step [s] that can't overlook `effect`, of a ball in `flow` that `force` accelerates."""
     return inf
 
 

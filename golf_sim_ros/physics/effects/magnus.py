@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Magnus lift of a golf ball: lift coefficient smooth in spin ratio and Reynolds number."""
-from math import sqrt
+from math import inf, sqrt
 from typing import NamedTuple
 
 from .._compile import kernel
-from ..vector import cross, length, scale
+from ..vector import ZERO, cross, dot, scale
 from . import laws
-from .drag import dynamic_push, reynolds_number
+from .drag import NO_FLOW, dynamic_push, reynolds_number
 
 
 class LiftLaw(NamedTuple):
@@ -39,23 +39,46 @@ class Magnus(NamedTuple):
 
 
 @kernel
-def lift_per_ratio(law, ratio, reynolds):
-    """Lift coefficient over the spin ratio, at `ratio` and `reynolds`; see `LiftLaw`."""
-    ss = ratio * ratio
-    b = reynolds * reynolds / (law.slow_at * law.slow_at)
-    return (law.early * (1.0 - law.lost / (1.0 + b * b)) / sqrt(ss + law.early_at * law.early_at)
-            + law.late / sqrt(ss + law.late_at * law.late_at))
+def lift_per_ratio(law, ss, rr):
+    """Lift coefficient over the spin ratio, at the squares of that, `ss`, and of the Reynolds number, `rr`.
+
+    See `LiftLaw`.
+    """
+    slow = law.slow_at ** 4
+    sped = slow + rr * rr
+    early = sqrt(ss + law.early_at * law.early_at)
+    late = sqrt(ss + law.late_at * law.late_at)
+    # Over a common denominator, as the drag.
+    return (law.early * (sped - law.lost * slow) * late + law.late * sped * early) / (sped * early * late)
 
 
 @laws.acceleration.register(Magnus)
 def _acceleration(effect, flow):
-    if flow.speed == 0.0:
-        return 0.0, 0.0, 0.0
+    vv = dot(flow.velocity, flow.velocity)
+    if vv < NO_FLOW:
+        return ZERO
     # push v^2 CL along across / |across|, where S is radius |across| / v^2: no division by a vanishing spin.
     across = cross(flow.spin, flow.velocity)
-    ratio = effect.radius * length(across) / (flow.speed * flow.speed)
-    per_ratio = lift_per_ratio(effect.law, ratio, effect.reynolds * flow.speed)
+    ss = effect.radius * effect.radius * dot(across, across) / (vv * vv)
+    per_ratio = lift_per_ratio(effect.law, ss, effect.reynolds * effect.reynolds * vv)
     return scale(effect.push * effect.radius * per_ratio, across)
+
+
+@laws.longest_step.register(Magnus)
+def _longest_step(effect, flow, force):
+    # Where the velocity sweeps past the axis of spin, lift turns about at once. To first order
+    # spin x velocity is least after `ahead`, and the law bends within `width` of that.
+    across = cross(flow.spin, flow.velocity)
+    change = cross(flow.spin, force)
+    turning = dot(change, change)
+    ahead = -dot(across, change)
+    if ahead <= 0.0 or turning == 0.0:
+        return inf
+    ahead /= turning
+    blunt = effect.law.early_at * flow.speed * flow.speed / effect.radius
+    least = max(dot(across, across) - turning * ahead * ahead, 0.0)
+    width = sqrt((least + blunt * blunt) / turning)
+    return max(0.5 * ahead, width)
 
 
 def record(scene):

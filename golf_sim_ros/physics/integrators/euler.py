@@ -2,7 +2,6 @@
 """Semi-implicit Euler: what most game engines do. A baseline, of order 1."""
 from typing import NamedTuple
 
-from ..effects import longest_step
 from ..path import lay
 from ..state import STEP
 from ..vector import along, put, scale, vector
@@ -18,8 +17,8 @@ class SemiImplicitEuler(NamedTuple):
 @runge_kutta.step.register(SemiImplicitEuler)
 def _step(method, model, ball):
     h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
-    h = min(h, longest_step(model.effects, vector(ball['position']), vector(ball['velocity'])))
     runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
+    h = min(h, runge_kutta.longest(model, ball))
     rates = ball['stages'][0]
     force = vector(rates[3:6])
     torque = vector(rates[6:9])

@@ -8,7 +8,7 @@ from .._compile import generic, kernel
 from ..effects import longest_step, pull, wind_at
 from ..motion import rates
 from ..path import lay
-from ..state import STEP
+from ..state import FLIGHT, STEP
 from ..vector import along, dot, length, put, sub, vector
 
 # What a wrong velocity or spin is worth in metres: it goes on for about a second, and 100 rad/s
@@ -103,6 +103,24 @@ def error_in_metres(ball, weights, h):
 
 
 @kernel
+def start(model, ball, last):
+    """Write the first stage: where the piece goes on from a whole step, that step's `last` one."""
+    if ball['phase'] == FLIGHT and ball['step'] > 0.0 and ball['rated'] == ball['begin']:
+        ball['stages'][0] = ball['stages'][last]
+    else:
+        stage(model, ball, 0, state_after(ball, NO_CHANGE))
+
+
+@kernel
+def longest(model, ball):
+    """Longest step [s] that can't overlook any effect. Reads the first stage."""
+    if ball['phase'] != FLIGHT:
+        return inf
+    return longest_step(model.effects, model.land.ground, vector(ball['position']), vector(ball['velocity']),
+                        vector(ball['spin']), vector(ball['stages'][0, 3:6]))
+
+
+@kernel
 def airspeed(model, ball):
     """Speed [m/s] of the ball through the air around it."""
     return length(sub(vector(ball['velocity']),
@@ -124,11 +142,11 @@ def step(method, model, ball):
     rows = table(method)
     weights = error_weights(method)
     last = len(rows) - 1
+    start(model, ball, last)
     h = ball['step']
     if h == 0.0:
         h = first_step(method, airspeed(model, ball), hop(model, ball))
-    h = min(h, longest_step(model.effects, vector(ball['position']), vector(ball['velocity'])))
-    stage(model, ball, 0, state_after(ball, NO_CHANGE))
+    h = min(h, longest(model, ball))
     while True:
         change = NO_CHANGE
         for i in range(1, last + 1):
@@ -142,6 +160,7 @@ def step(method, model, ball):
     first = ball['stages'][0]
     final = ball['stages'][last]
     ball['span'] = h
+    ball['rated'] = ball['begin'] + h
     put(ball['origin'], vector(ball['position']))
     put(ball['twist'][3], along(vector(ball['spin']), 1.0, (change[6], change[7], change[8])))
     lay(ball, (change[0], change[1], change[2]), (vector(first[0:3]), vector(final[0:3])),
