@@ -70,6 +70,7 @@ def hold(land, ball, now):
     ball['phase'] = FLIGHT
     # What is held does not hop: else the rounding of its rise would decide the next step's length.
     ball['step'] = CAUGHT_STEP if surfaces > 0 else 0.0
+    ball['rated'] = -1.0
     if surfaces == 0:
         ball['stalled'] = 0
     elif left < AT_REST and ball['support'] != NO_PART:

@@ -62,7 +62,8 @@ BALL = np.dtype([
     # and of the spin; what ends it and on which part of the ground, or at which other ball
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
     ('path', 'f8', (6, 3)), ('twist', 'f8', (4, 3)), ('ending', 'i8'), ('target', 'i8'),
-    # the integrator's next step and its stages: rates of position, velocity, spin; when the last is of
+    # the integrator's next step and its stages: rates of position, velocity, spin; when the last
+    # of them holds, -1 where something else has moved the ball since
     ('step', 'f8'), ('stages', 'f8', (8, 9)), ('rated', 'f8'), ('evaluations', 'i8'),
     # the shot under way; whether another ball has set it off
     ('playing', 'i8'), ('knocked', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),

@@ -105,7 +105,8 @@ def error_in_metres(ball, weights, h):
 @kernel
 def start(model, ball, last):
     """Write the first stage: where the piece goes on from a whole step, that step's `last` one."""
-    if ball['phase'] == FLIGHT and ball['step'] > 0.0 and ball['rated'] == ball['begin']:
+    goes_on = ball['step'] > 0.0 and ball['rated'] == ball['begin'] and not ball['piled']
+    if ball['phase'] == FLIGHT and goes_on:
         ball['stages'][0] = ball['stages'][last]
     else:
         stage(model, ball, 0, state_after(ball, NO_CHANGE))
