@@ -8,6 +8,8 @@ from ..vector import ZERO, cross, dot, scale
 from . import laws
 from .drag import NO_FLOW, dynamic_push, reynolds_number
 
+BRIEF = 2e-3  # s: a step that the error control can be left to, however suddenly lift turns about
+
 
 class LiftLaw(NamedTuple):
     """Lift coefficient over the spin ratio S >= 0, for a Reynolds number Re; S times it is bounded.
@@ -78,7 +80,7 @@ def _longest_step(effect, flow, force):
     blunt = effect.law.early_at * flow.speed * flow.speed / effect.radius
     least = max(dot(across, across) - turning * ahead * ahead, 0.0)
     width = sqrt((least + blunt * blunt) / turning)
-    return max(0.5 * ahead, width)
+    return max(0.5 * ahead, width, BRIEF)
 
 
 def record(scene):
