@@ -49,8 +49,8 @@ def drag_coefficient(law, ss, rr):
     """Drag coefficient at the squares of spin ratio, `ss`, and Reynolds number, `rr`; see `DragLaw`."""
     # Squares take no roots, and common denominators few divisions: this is most of what a flight costs.
     high = law.high_at * law.high_at
-    slow = law.slow_at ** 4
-    crisis = law.crisis_at ** 4
+    slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
+    crisis = law.crisis_at * law.crisis_at * law.crisis_at * law.crisis_at
     fade = law.fade * law.fade
     return (law.base + law.high * rr / (high + rr)
             + law.spin * ss * (slow * (1.0 + law.slow) + rr * rr)

@@ -46,7 +46,7 @@ def lift_per_ratio(law, ss, rr):
 
     See `LiftLaw`.
     """
-    slow = law.slow_at ** 4
+    slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
     sped = slow + rr * rr
     early = sqrt(ss + law.early_at * law.early_at)
     late = sqrt(ss + law.late_at * law.late_at)
