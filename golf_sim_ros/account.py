@@ -32,6 +32,22 @@ def line(result):
     return f'{kind(result.velocity)}: {", ".join(parts)}'
 
 
+def effect_lines(world):
+    """Lines for the log about what is simulated, and what is not and why."""
+    lines = [f'simulated: {", ".join(world.effects_on) or "nothing"}; accuracy {world.accuracy}']
+    if world.effects_off:
+        lines.append(f'left out: {with_reasons(world.effects_off)}')
+    return lines
+
+
+def with_reasons(reasons):
+    """Names with their `reasons`, a dict by name, such as ``wind (no wind); drag, magnus (no air)``."""
+    names = {}
+    for name, reason in reasons.items():
+        names.setdefault(reason, []).append(name)
+    return '; '.join(f'{", ".join(some)} ({reason})' for reason, some in names.items())
+
+
 def side(metres, digits):
     """How far off the line."""
     distance = f'{abs(metres):.{digits}f}'

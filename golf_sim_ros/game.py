@@ -40,6 +40,7 @@ class Game:
         self.keeps_time = given.publish_clock
         self.journal, self.ticks = Journal(broadcast.tell_entry), 0
         self.diagnosis = Diagnosis()
+        world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
         self.playing = {}  # number of the strike that a ball plays
@@ -61,7 +62,8 @@ class Game:
         self.advance()
         if not self.paused:
             self.apply()
-        self.tell()
+        with self.diagnosis.publishing():
+            self.tell()
 
     def advance(self):
         """Advance by as many whole ticks as are due; where they are many, tell in between."""
@@ -75,7 +77,8 @@ class Game:
         done = 0
         for ticks in self.pace.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
             if done and self.world.moving:
-                self.tell_balls()
+                with self.diagnosis.publishing():
+                    self.tell_balls()
             for _ in range(ticks):
                 self.tick()
                 if self.pace.hurries and not self.world.moving:
@@ -89,9 +92,15 @@ class Game:
         began = perf_counter()
         events = self.world.advance(self.pace.tick)
         self.ticks += 1
-        self.diagnosis.durations.append(perf_counter() - began)
+        self.diagnosis.note_tick(perf_counter() - began)
         for name in self.world.in_motion:
             self.orientations[name] = turned(self.orientations[name], self.world[name].spin, self.pace.tick)
+        if events:
+            with self.diagnosis.publishing():
+                self.tell_events(events)
+
+    def tell_events(self, events):
+        """Tell collisions and ends of shots."""
         for event in events:
             if isinstance(event, Result):
                 self.finish(event)
@@ -197,6 +206,10 @@ class Game:
 
     def diagnose(self):
         """Tell how well simulated time keeps up with the clock."""
-        self.diagnosis.mark(self.world.time)
+        self.diagnosis.mark(self.world)
         slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.paused
+        if slow:
+            self.log.warning(f'slower than the clock: {self.diagnosis.factor:.3g} simulated seconds a second '
+                             f'instead of {self.pace.factor:g}; no tick is left out, the play is the same',
+                             throttle_duration_sec=1.0)
         self.broadcast.tell_diagnosis(slow, self.diagnosis.values(self.world, self.pace.lost))

@@ -11,6 +11,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_srvs.srv import SetBool, Trigger
 
+from .account import effect_lines, with_reasons
 from .broadcast import Broadcast
 from .course import load_course
 from .game import Game
@@ -93,9 +94,10 @@ class SimNode(Node):
         log.info(f'course: {world.course.name} ({world.course.path})')
         for note in world.course.notes:
             log.info(note)
-        log.info(f'simulated: {", ".join(world.effects_on)}; accuracy {world.accuracy}')
-        for name, reason in world.effects_off.items():
-            log.info(f'not simulated: {name}: {reason}')
+        for line in effect_lines(world):
+            log.info(line)
+        if world.effects_needless:
+            log.warning(f'asked for, but nothing here calls for it: {with_reasons(world.effects_needless)}')
         log.info('ready; to strike the ball, paste: ros2 topic pub --once '
                  f"{self.strikes.topic_name} geometry_msgs/msg/Twist '{EXAMPLE}'")
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The physics of golf: no ROS, no files, no clock, no plots."""
 from .accuracy import ACCURACY, Preset
+from .advance import cycles_now
 from .air import Air, standard_atmosphere
 from .course import Ball, Course
 from .effects import EFFECTS, register_effect
@@ -22,5 +23,6 @@ __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'Heightmap',
     'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
     'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile',
-    'Water', 'World', 'check_hole', 'ground_height', 'register_effect', 'rolling_resistance_of_stimp',
+    'Water', 'World', 'check_hole', 'cycles_now',
+    'ground_height', 'register_effect', 'rolling_resistance_of_stimp',
     'simulate', 'simulate_many', 'standard_atmosphere']

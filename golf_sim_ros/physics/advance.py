@@ -9,7 +9,7 @@ import numpy as np
 
 from . import bump, pair, pile  # noqa: F401  (they say what balls do to each other)
 from . import others
-from ._compile import borrowed, entry, kernel, shared
+from ._compile import borrowed, cycles, entry, kernel, shared
 from .caught import hold, is_caught
 from .contact import settle
 from .crowd import MEMBERS, first_due
@@ -25,6 +25,8 @@ from .together import disperse, enlist
 from .vector import ZERO, along, put, unit, vector
 
 DONE, LOG_FULL = range(2)
+STAGES = 'flight', 'contact', 'broad phase'
+IN_FLIGHT, IN_CONTACT, NEIGHBOURS = range(3)
 EVENTS_A_BALL = 3  # that one piece's end can log, but for impacts of balls
 
 
@@ -43,6 +45,7 @@ def run(model, balls, until, crowd, log):
     for i in range(len(balls)):
         crowd.ends[i] = balls[i]['end']
     others.prepare(crowd, balls, model.land.ball.radius)
+    since = book(crowd, NEIGHBOURS, cycles() if len(crowd.spent) else 0)
     while True:
         i = first_due(crowd, until)
         if i < 0:
@@ -50,11 +53,14 @@ def run(model, balls, until, crowd, log):
         if 2 * log.count[0] > len(log.events):
             return LOG_FULL
         now = balls[i]['end']
+        since = book(crowd, NEIGHBOURS, since)
+        stage = IN_CONTACT if balls[i]['ending'] == HIT else stage_of(balls[i])
         enlist(crowd, i)
         resolve(model, balls, i, crowd, log)
+        since = book(crowd, stage, since)
         for k in range(crowd.count[MEMBERS]):
             finish(model, balls[crowd.members[k]], crowd.members[k], now, log)
-            lay(model, balls, crowd.members[k], now, crowd)
+            since = lay(model, balls, crowd.members[k], now, crowd, since)
         for k in range(crowd.count[MEMBERS]):
             look_out(balls, crowd.members[k], model.land.ball.radius, now, crowd)
         disperse(crowd)
@@ -128,11 +134,35 @@ def finish(model, ball, number, now, log):
 
 
 @kernel
-def lay(model, balls, i, now, crowd):
-    """Lay ball `i`'s next piece. Writes piece and crowd."""
+def lay(model, balls, i, now, crowd, since):
+    """Lay ball `i`'s next piece. Writes piece and crowd. Returns the cycles at its end; see `book`."""
     lay_next(model, balls[i], now)
+    since = book(crowd, stage_of(balls[i]), since)
     crowd.ends[i] = balls[i]['end']
     others.note(crowd, balls, i, model.land.ball.radius)
+    return book(crowd, NEIGHBOURS, since)
+
+
+@kernel
+def stage_of(ball):
+    """Stage that a ball's motion belongs to."""
+    return IN_FLIGHT if ball['phase'] == FLIGHT else IN_CONTACT
+
+
+@kernel
+def book(crowd, stage, since):
+    """Book the cycles from `since` until now on a stage, if somebody asks. Returns now. Writes spent."""
+    if len(crowd.spent) == 0:
+        return since
+    now = cycles()
+    crowd.spent[stage] += now - since
+    return now
+
+
+@entry
+def cycles_now():
+    """Cycles of the processor so far, as in `book`."""
+    return cycles()
 
 
 @kernel

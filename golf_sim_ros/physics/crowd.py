@@ -53,6 +53,7 @@ class Crowd(NamedTuple):
     before: np.ndarray
     contacts: np.ndarray
     count: np.ndarray
+    spent: np.ndarray
     nodes: np.ndarray
     leaves: np.ndarray
     order: np.ndarray
@@ -63,7 +64,8 @@ def scratch(balls, collide):
     """`Crowd` of that many balls, which `collide`, or `Solo`."""
     solo = Solo(np.full(balls, np.inf), np.zeros(balls, np.int64), np.full(balls, -1, np.int64),
                 np.zeros((balls, 3)), np.zeros((balls, 6)), np.zeros(CONTACTS_A_BALL * balls + 8, CONTACT),
-                np.array([0, 0, balls]))
+                np.array([0, 0, balls]),
+                np.zeros(0, np.int64))
     if not collide:
         return solo
     return Crowd(*solo, np.zeros(2 * balls - 1, NODE), np.zeros(balls, np.int64), np.arange(balls),

@@ -16,7 +16,8 @@ class Solo(NamedTuple):
 
     ``ends``: when each ball's piece ends; ``members``, ``contacts``: of the impact at hand; ``places``: index
     among the members of each ball, or -1; ``flow``: change of each member's velocity; ``before``: its motion
-    before the impact; ``count``: of members, of contacts, and of new pieces since the tree was built.
+    before the impact; ``count``: of members, of contacts, and of new pieces since the tree was built;
+    ``spent``: cycles by stage, or empty where nobody asks.
     """
 
     ends: np.ndarray
@@ -26,6 +27,7 @@ class Solo(NamedTuple):
     before: np.ndarray
     contacts: np.ndarray
     count: np.ndarray
+    spent: np.ndarray
 
 
 @generic

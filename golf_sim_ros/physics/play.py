@@ -13,6 +13,9 @@ from .vector import ZERO
 from .world import World, checked_wind
 
 
+PART = 5000  # shots between two looks at the progress
+
+
 class Play(NamedTuple):
     """A shot with its path: `times` (n,) [s], the others (n, 3) in SI units; the last row is the end."""
 
@@ -90,7 +93,7 @@ def checked_gusts(wind):
 
 
 def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy='standard',
-                  executor=None, chunks=16):
+                  executor=None, chunks=16, progress=None):
     """Play many shots, each from the tee.
 
     Parameters
@@ -100,7 +103,11 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     wind : (float, float, float), or array_like (m, 4)
         See `simulate`.
     executor : concurrent.futures.Executor, optional
-        Plays `chunks` parts of the shots at once: processes, threads, or other machines.
+        Plays `chunks` parts of the shots at once: threads, processes, or other machines. Kernels let
+        other threads run, so threads do as well as processes, and share what is compiled.
+    progress : callable, optional
+        ``progress(parts, total=n)`` gives the parts back one by one and shows how far they are, as
+        `tqdm.tqdm` does. Else there is such a bar on a terminal, where tqdm is installed and it takes long.
 
     Returns
     -------
@@ -114,11 +121,21 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     """
     strikes = checked_strikes(velocities, spins)
     gusts = checked_gusts(wind)
+    progress = progress or bar
     if executor is None:
-        return _played(course, strikes, gusts, effects, accuracy)
+        return _played(course, strikes, gusts, effects, accuracy, progress)
     parts = [part for part in np.array_split(strikes, chunks) if len(part)]
-    return np.concatenate(list(executor.map(
-        _played, repeat(course), parts, repeat(gusts), repeat(effects), repeat(accuracy))))
+    played = executor.map(_played, repeat(course), parts, repeat(gusts), repeat(effects), repeat(accuracy))
+    return np.concatenate(list(progress(played, total=len(parts))))
+
+
+def bar(parts, total):
+    """`parts` with a bar on a terminal, from two seconds on, if tqdm is installed."""
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        return parts
+    return tqdm(parts, total=total, desc='shots', unit='part', delay=2.0, disable=None)
 
 
 def checked_strikes(velocities, spins):
@@ -133,12 +150,14 @@ def checked_strikes(velocities, spins):
     return np.ascontiguousarray(np.hstack([velocities, spins]))
 
 
-def _played(course, strikes, gusts, effects, accuracy):
+def _played(course, strikes, gusts, effects, accuracy, progress=None):
     # The strongest gust decides whether there is wind at all.
     strongest = gusts[np.argmax(np.linalg.norm(gusts[:, 1:], axis=1)), 1:]
     world = World(course, effects=effects, accuracy=accuracy, wind=strongest)
-    ends = play_all(world._model, world._balls, strikes, gusts, world._crowd, world._log)
-    return summary(ends, course.hole, world._materials)
+    parts = np.array_split(strikes, max(1, len(strikes) // PART))
+    ends = [play_all(world._model, world._balls, part, gusts, world._crowd, world._log)
+            for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
+    return summary(np.concatenate(ends), course.hole, world._materials)
 
 
 def check_hole(course):

@@ -9,7 +9,7 @@ import numpy as np
 from . import model as model_
 from ._compile import stamp
 from .accuracy import preset
-from .advance import LOG_FULL, advance
+from .advance import LOG_FULL, STAGES, advance
 from .crowd import AGE, scratch
 from .ground import surface
 from .piece import LONGEST_SHOT, put_down
@@ -99,6 +99,11 @@ class World:
         return self._chosen.off
 
     @property
+    def effects_needless(self):
+        """Reasons of the effects that were asked for by name and that this scene can't have, by name."""
+        return self._chosen.needless
+
+    @property
     def accuracy(self):
         """Name of the accuracy preset; may be set while balls move."""
         return self._accuracy
@@ -108,6 +113,15 @@ class World:
         self._preset, self._accuracy = preset(accuracy), accuracy
         self._model = model_.build(self.course, self._chosen.records, self._preset)
         self._begin_new_pieces()
+
+    def measure(self):
+        """Keep account from now on of where the engine's time goes; see `spent`."""
+        self._crowd = self._crowd._replace(spent=np.zeros(len(STAGES), np.int64))
+
+    @property
+    def spent(self):
+        """Processor's cycles that the engine has spent since `measure`, by stage; `cycles()` counts all."""
+        return dict(zip(STAGES, self._crowd.spent.tolist()))
 
     @property
     def moving(self):

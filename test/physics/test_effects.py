@@ -24,8 +24,9 @@ effects = pytest.mark.parametrize('name', EFFECTS)
 ELSEWHERE = {'ball_ball', 'foliage', 'water'}
 ON_REQUEST = {'linear_drag', 'ferguson_drag', 'ferguson_lift', 'penner_2002',
               'smits_smith_1994', 'naruo_2004', 'bearman_harvey_1976'}
+CASTS = {'drag': 'Drag', 'magnus': 'Magnus', 'spin_decay': 'SpinDecay', 'turf': 'Turf'}
 # The others are left out because one is better, not because they would do nothing.
-AUTOMATIC = [name for name in EFFECTS if 'request' not in EFFECTS[name].idle(SCENES['wind'])]
+AUTOMATIC = [name for name in EFFECTS if not EFFECTS[name].instead_of]
 
 
 def types_differ():
@@ -94,17 +95,17 @@ def answers(name):
 
 @pytest.mark.parametrize('scene', SCENES)
 def test_auto_gives_each_effect_or_a_reason(scene):
-    on, off, _ = choose('auto', SCENES[scene])
-    assert list(sorted([*on, *off])) == sorted(EFFECTS)
+    on, off, *_ = choose('auto', SCENES[scene])
+    assert sorted([*on, *off]) == sorted(AUTOMATIC) and set(EFFECTS) == {*AUTOMATIC} | ON_REQUEST
     assert all(reason and '\n' not in reason for reason in off.values())
     assert 'gravity' in on
 
 
 def test_auto_leaves_out_what_the_scene_has_no_cause_for():
     off = {scene: choose('auto', SCENES[scene]).off for scene in SCENES}
-    assert off['calm turf'].keys() == {'wind'} | ON_REQUEST | ELSEWHERE
-    assert off['hard ground'].keys() == {'wind', 'turf'} | ON_REQUEST | ELSEWHERE
-    assert off['wind'].keys() == ON_REQUEST | ELSEWHERE
+    assert off['calm turf'].keys() == {'wind'} | ELSEWHERE
+    assert off['hard ground'].keys() == {'wind', 'turf'} | ELSEWHERE
+    assert off['wind'].keys() == ELSEWHERE
     assert off['no air'].keys() >= {'drag', 'magnus', 'spin_decay', 'turf', 'wind'}
     assert off['no air']['drag'] == 'no air' and off['calm turf']['wind'] == 'no wind'
     assert off['hard ground']['turf'] == 'all ground is hard'
@@ -120,7 +121,7 @@ def ends_without_and_with(name):
     """Ends of a shot by auto and by auto with `name`, in all scenes where auto leaves it out."""
     pairs = []
     for scene in SCENES.values():
-        on, off, _ = choose('auto', scene)
+        on, off, *_ = choose('auto', scene)
         if name in off:
             pairs.append([end(scene, effects) for effects in ('auto', (*on, name))])
     return pairs
@@ -163,9 +164,53 @@ def ends_in_orders():
 
 
 def test_effects_not_asked_for_are_off_and_say_so():
-    on, off, _ = choose(('gravity', 'drag'), SCENES['wind'])
+    on, off, *_ = choose(('gravity', 'drag'), SCENES['wind'])
     assert on.keys() == {'gravity', 'drag'}
     assert set(off.values()) == {'not asked for'}
+
+
+@pytest.mark.parametrize('scene', SCENES)
+def test_what_is_off_is_of_no_type_that_the_kernels_see(scene):
+    course, wind = SCENES[scene].course, SCENES[scene].wind
+    world = World(course, wind=wind)
+    kinds = {type(record).__name__ for record in (*world._model.effects, *world._model.land.effects)}
+    assert {CASTS[name] for name in CASTS if name in world.effects_on} <= kinds
+    assert not kinds & {CASTS[name] for name in CASTS if name in world.effects_off}
+    assert not kinds & {'Drag', 'Magnus', 'SpinDecay'} & {type(r).__name__ for r in world._model.land.effects}
+
+
+def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_lays_no_piece():
+    flying, rolling, rolled, ends = run(evaluations)
+    assert flying > 0 and rolled == rolling and ends == float('inf')
+
+
+def evaluations():
+    """Evaluations of the rates of flight: of a short flight, of a roll at two times; the end of the rest."""
+    world, told = World(level(TURF)), []
+    for velocity in ((3.0, 0.0, 3.0), (2.0, 0.0, 0.0)):
+        world._balls[0]['evaluations'] = 0
+        world.strike('ball', velocity)
+        world.advance(0.1)
+        told.append(int(world._balls[0]['evaluations']))
+        world.advance(0.5 if velocity[2] == 0.0 else 60.0)
+    told.append(int(world._balls[0]['evaluations']))
+    world.advance(60.0)
+    return (*told, float(world._balls[0]['end']))
+
+
+def test_what_was_asked_for_and_the_scene_can_not_have_is_told_with_the_reason():
+    asked = ('gravity', 'drag', 'magnus', 'turf', 'ball_ball', 'water', 'wind', 'foliage')
+    chosen = choose(asked, SCENES['hard ground'])
+    assert chosen.on.keys() == set(asked)  # honoured all the same
+    assert chosen.needless == {'turf': 'all ground is hard', 'ball_ball': 'one ball', 'water': 'no water',
+                               'foliage': 'no leaves'}  # wind may still come
+    assert choose('auto', SCENES['hard ground']).needless == {}
+
+
+def test_an_alternative_is_simulated_only_by_name():
+    for name in ON_REQUEST:
+        assert EFFECTS[name].instead_of and set(EFFECTS[name].instead_of) <= set(AUTOMATIC)
+        assert name in choose(('gravity', name), SCENES['wind']).on
 
 
 def test_an_unknown_effect_is_named_with_the_known_ones():

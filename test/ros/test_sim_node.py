@@ -189,7 +189,14 @@ def test_diagnostics_tell_how_the_simulation_keeps_up_and_what_it_simulates(sim,
     assert status.name == '/golf_sim: play'
     assert float(values['real-time factor']) > 0.5
     assert float(values['tick time p99 [us]']) >= float(values['tick time p50 [us]']) > 0.0
+    assert float(values['tick time max [us]']) >= float(values['tick time p99 [us]'])
     assert int(values['ticks made up']) >= 0
+    stages = ('flight', 'contact', 'broad phase', 'publish', 'all of a tick', 'all of the process')
+    shares = [float(values[f'share of a core, {stage} [%]']) for stage in stages]
+    assert all(share >= 0.0 for share in shares) and sum(shares[:3]) <= shares[4] + 0.01
+    assert float(values['error at most, first touch [m]']) == 1e-3
+    assert float(values['error at most, rest [m]']) == 1e-2
+    assert values['effects asked for in vain'] == 'none' and 'effect off: linear_drag' not in values
     assert 'gravity' in values['effects on'] and values['effect off: wind']
     assert 'wind age [s]' in values
 
@@ -270,7 +277,7 @@ def test_the_log_tells_the_course_the_effects_a_line_to_paste_and_every_shot(gol
     line = sim.wait_for(f'total {result["total"]:.0f} m')
     assert 'wedge-like shot: carry' in line and f'{result["to_hole"]:.0f} m to the hole' in line
     assert 'course: Golf without friends' in sim.output
-    assert 'simulated: ' in sim.output and 'not simulated: wind: ' in sim.output
+    assert 'simulated: ' in sim.output and 'left out: ' in sim.output and 'wind (no wind)' in sim.output
     assert "ros2 topic pub --once /shot geometry_msgs/msg/Twist '{linear:" in sim.output
 
 

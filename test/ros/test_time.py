@@ -131,3 +131,30 @@ def test_a_sim_that_publishes_its_clock_may_follow_it(start, make_golfer):
         '/follower', use_sim_time='true', publish_clock='true', real_time_factor=10.0))
     process.wait_for(READY)
     assert make_golfer('/follower').play((9.0, 0.0, 5.0))['status'] == 'at_rest'
+
+
+def test_a_sim_that_can_not_keep_up_leaves_out_no_tick_and_says_so_once_a_second(start, make_golfer, steady):
+    process = start('sim_node', *parameters('/slow', real_time_factor=15.0, rate=10000.0))
+    process.wait_for(READY)
+    golfer = make_golfer('/slow')
+    result = golfer.play(DRIVE, DRIVE_SPIN)
+    wait_until(lambda: process.output.count('slower than the clock') > 1, 'it told twice that it is slow')
+    assert process.stop() == 0
+    times = [float(line.split('[')[2].split(']')[0]) for line in process.lines if 'slower than' in line]
+    assert all(after - before > 0.99 for before, after in zip(times, times[1:]))
+    other = make_golfer('/steady')
+    other.reset()
+    told = other.play(DRIVE, DRIVE_SPIN)
+    for one in (told, result):
+        del one['time'], one['shot']
+    assert told == result
+
+
+def test_effects_asked_for_in_vain_are_one_line_of_the_log(start):
+    process = start('sim_node', *parameters('/vain', effects="['gravity', 'drag', 'foliage', 'ball_ball']"))
+    process.wait_for(READY)
+    assert len([line for line in process.lines if 'foliage (no leaves)' in line and 'ball_ball (one ball)' in line]) == 1
+    assert len([line for line in process.lines if 'left out' in line]) == 1
+    process = start('sim_node', *parameters('/unknown', effects="['gravity', 'rain']"))
+    assert process.wait() == 1
+    assert len(process.lines) == 1 and "'rain' is unknown" in process.output

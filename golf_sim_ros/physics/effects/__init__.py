@@ -5,7 +5,8 @@ A file of this folder that defines ``record(scene)`` and ``idle(scene)`` is an e
 the file. ``record`` gives the effect's record for a scene; ``idle`` says why the scene can do
 without it, or '' if it can't. An idle effect is not compiled in, unless the file defines
 ``dormant(scene)`` too: a record of the same type that does nothing, so that nothing compiles when
-the effect awakes. Other packages add theirs with :func:`register_effect`.
+the effect awakes. A file with ``INSTEAD_OF``, names of effects, is another law for the same: a scene
+gets it only by name. Other packages add theirs with :func:`register_effect`.
 """
 import importlib
 import inspect
@@ -27,30 +28,38 @@ class Scene(NamedTuple):
 
 
 class Effect(NamedTuple):
-    """A known effect: how to build its record, when a scene can do without, a record that sleeps."""
+    """A known effect: how to build its record, when a scene can do without, a record that sleeps.
+
+    ``instead_of``: names of the effects to which it is an alternative; such a one is never automatic.
+    """
 
     record: Callable
     idle: Callable
     doc: str
     dormant: Optional[Callable] = None
+    instead_of: tuple = ()
 
 
 class Chosen(NamedTuple):
-    """Records by name of the effects that a scene gets; reasons of those left out; records to compile."""
+    """Records by name of the effects that a scene gets; reasons of those left out; records to compile.
+
+    ``needless``: reasons of those that were asked for by name and that the scene can't have.
+    """
 
     on: dict
     off: dict
     records: tuple
+    needless: dict
 
 
 EFFECTS = {}
 
 
-def register_effect(name, record, idle, doc, dormant=None):
+def register_effect(name, record, idle, doc, dormant=None, instead_of=()):
     """Make an effect known under `name`; see the module's docstring for the other parameters."""
     if name in EFFECTS:
         raise ValueError(f'effect {name!r} is already registered')
-    EFFECTS[name] = Effect(record, idle, doc, dormant)
+    EFFECTS[name] = Effect(record, idle, doc, dormant, tuple(instead_of))
 
 
 def choose(names, scene):
@@ -77,7 +86,9 @@ def choose(names, scene):
             raise ValueError(f'effect {name!r} is unknown; known: auto, {", ".join(sorted(EFFECTS))}')
     on, off, records = {}, {}, []
     for name, effect in EFFECTS.items():
-        asked = auto or name in names
+        asked = not effect.instead_of if auto else name in names
+        if effect.instead_of and not asked:
+            continue
         reason = effect.idle(scene) if auto else '' if asked else 'not asked for'
         if not reason:
             on[name] = effect.record(scene)
@@ -86,7 +97,14 @@ def choose(names, scene):
         off[name] = reason
         if asked and effect.dormant:
             records.append(effect.dormant(scene))
-    return Chosen(on, off, tuple(records))
+    return Chosen(on, off, tuple(records), {} if auto else needless(names, scene))
+
+
+def needless(names, scene):
+    """Reasons of those of `names` that `scene` can't have, whatever wind may come, by name."""
+    windy = scene._replace(wind=(1.0, 0.0, 0.0))
+    reasons = {name: EFFECTS[name].idle(windy) for name in names}
+    return {name: reason for name, reason in reasons.items() if reason}
 
 
 @kernel
@@ -166,7 +184,7 @@ def _discover():
         found = importlib.import_module(f'{__name__}.{module.name}')
         if hasattr(found, 'record'):
             register_effect(module.name, found.record, found.idle, inspect.getdoc(found).splitlines()[0],
-                            getattr(found, 'dormant', None))
+                            getattr(found, 'dormant', None), getattr(found, 'INSTEAD_OF', ()))
 
 
 _discover()

@@ -17,6 +17,8 @@ DRAG = (0.265, 0.264, 0.265, 0.267, 0.276, 0.283, 0.291, 0.299, 0.306, 0.3125, 0
 LIFT = (0.081, 0.111, 0.129, 0.144, 0.159, 0.177, 0.194, 0.211, 0.230, 0.2465, 0.262, 0.302,
         0.352, 0.404, 0.452)
 
+INSTEAD_OF = ('drag', 'magnus')
+
 
 class BearmanHarvey1976(NamedTuple):
     """Rows of spin ratio, CD, CL and their slopes in ``table``; `push` is rho A / (2 m) [1/m].
@@ -66,5 +68,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: `drag` and `magnus` are better."""
-    return 'an alternative to drag and magnus, only on request'
+    """Why `scene` can do without: in no air."""
+    return '' if scene.course.air.pressure > 0 else 'no air'

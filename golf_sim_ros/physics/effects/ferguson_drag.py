@@ -11,6 +11,8 @@ from .drag import dynamic_push
 # inside that range; the coefficient is held there, so that it never falls as spin grows.
 FERGUSON_DRAG = (0.1304, 0.9287, -0.8259)
 
+INSTEAD_OF = ('drag',)
+
 
 class FergusonDrag(NamedTuple):
     """Drag of coefficient ``c0 + c1 S + c2 S^2``, held from its vertex on; S = spin radius/speed.
@@ -40,5 +42,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: `drag` is better."""
-    return 'an alternative to drag, only on request'
+    """Why `scene` can do without: in no air."""
+    return '' if scene.course.air.pressure > 0 else 'no air'

@@ -13,6 +13,8 @@ FERGUSON_LIFT = (0.0504, 1.2031, -1.1490)
 # lift fades to zero smoothly; a drive flies at 0.08 and more. (Estimate.)
 FADE = 0.01
 
+INSTEAD_OF = ('magnus',)
+
 
 class FergusonLift(NamedTuple):
     """Lift along spin x velocity, of coefficient ``c0 + c1 S + c2 S^2``.
@@ -50,5 +52,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: `magnus` is better."""
-    return 'an alternative to magnus, only on request'
+    """Why `scene` can do without: in no air."""
+    return '' if scene.course.air.pressure > 0 else 'no air'

@@ -5,6 +5,8 @@ from typing import NamedTuple
 from ..vector import scale
 from . import laws
 
+INSTEAD_OF = ('drag',)
+
 
 class LinearDrag(NamedTuple):
     """Drag force -c v, `rate` = c/m [1/s].
@@ -27,5 +29,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: `drag` is the better law."""
-    return 'an alternative to drag, only on request'
+    """Why `scene` can do without: in no air."""
+    return '' if scene.course.air.pressure > 0 else 'no air'

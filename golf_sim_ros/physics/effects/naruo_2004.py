@@ -9,6 +9,8 @@ from ..vector import ZERO
 
 MOST_RATIO = 1.13  # measured for S of 0.03 to this, Re of 7.1e4 to 1.25e5
 
+INSTEAD_OF = ('drag', 'magnus')
+
 
 class Naruo2004(NamedTuple):
     """CD and CL of degree four in S, held from S = 1.13 on; `push` is rho A / (2 m) [1/m].
@@ -37,5 +39,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: `drag` and `magnus` are better."""
-    return 'an alternative to drag and magnus, only on request'
+    """Why `scene` can do without: in no air."""
+    return '' if scene.course.air.pressure > 0 else 'no air'

@@ -4,7 +4,9 @@ from typing import NamedTuple
 
 from ..vector import length, tangential
 from . import laws
-from .turf import ANGLE, SPEED, TILT, steepness, tilted
+from .turf import ANGLE, SPEED, TILT, idle, steepness, tilted  # noqa: F401  (idle where turf is)
+
+INSTEAD_OF = ('turf',)
 
 
 class Penner2002(NamedTuple):
@@ -28,8 +30,3 @@ def _contact_normal(effect, normal, velocity, softness):
 def record(scene):
     """Record for `scene`."""
     return Penner2002()
-
-
-def idle(scene):
-    """Why `scene` can do without: `turf` is better."""
-    return 'an alternative to turf, only on request'

@@ -8,6 +8,8 @@ from .drag import dynamic_push, reynolds_number
 from .published import drag_and_lift, spin_ratio
 from ..vector import ZERO
 
+INSTEAD_OF = ('drag', 'magnus')
+
 
 class SmitsSmith1994(NamedTuple):
     """CD = 0.24 + 0.18 S + 0.06 sin(pi (Re - 90000) / 200000), CL = 0.54 S^0.4.
@@ -38,5 +40,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: `drag` and `magnus` are better."""
-    return 'an alternative to drag and magnus, only on request'
+    """Why `scene` can do without: in no air."""
+    return '' if scene.course.air.pressure > 0 else 'no air'

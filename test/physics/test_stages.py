@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the engine's time goes: counted by stage, and only where somebody asks."""
+from driving_range import TURF, level
+from golf_sim_ros.physics import World, cycles_now
+from other_process import run
+
+
+def spent(balls, velocity, seconds):
+    """Counts by stage of the first `seconds` of a strike among `balls`, and all that passed meanwhile."""
+    world = World(level(TURF), balls)
+    world.measure()
+    began = cycles_now()
+    world.strike('ball_0', velocity)
+    world.advance(seconds)
+    return world.spent, cycles_now() - began
+
+
+def cases():
+    """`spent` of a ball that flies, of one that rolls, of one of two that flies."""
+    return spent(1, (30.0, 0.0, 20.0), 1.0), spent(1, (2.0, 0.0, 0.0), 0.1), spent(2, (30.0, 0.0, 20.0), 1.0)
+
+
+def test_time_is_booked_on_the_stage_it_is_spent_in():
+    (flying, _), (rolling, _), (together, _) = run(cases)
+    assert flying['flight'] > flying['contact'] and rolling['contact'] > rolling['flight']
+    assert together['broad phase'] > 0
+
+
+def test_no_more_is_booked_than_passes():
+    for stages, passed in run(cases):
+        assert 0 < sum(stages.values()) <= passed
+
+
+def test_nothing_is_booked_unless_somebody_asks():
+    world = World(level(TURF))
+    assert world.spent == {}
