@@ -8,7 +8,7 @@ from .._compile import kernel
 from ..vector import ZERO
 from . import laws
 from .drag import dynamic_push
-from .published import drag_and_lift, spin_ratio
+from .published import drag_and_lift, spin_ratio, turning_about
 
 # Aeronautical Quarterly 27 (1976) 112-122, as digitised by others, +-0.008: Re of 1.26e5 to 2.38e5.
 RATIO = (0.02, 0.05, 0.075, 0.10, 0.125, 0.15, 0.175, 0.20, 0.225, 0.25, 0.275, 0.342, 0.46, 0.641, 1.0)
@@ -56,6 +56,9 @@ def _acceleration(effect, flow):
     ratio = spin_ratio(effect.radius, flow)
     drag, lift = read(effect.table, ratio)
     return drag_and_lift(effect.push, flow, ratio, drag, lift)
+
+
+laws.longest_step.register(BearmanHarvey1976)(turning_about)
 
 
 def record(scene):

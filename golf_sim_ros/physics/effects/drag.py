@@ -8,6 +8,7 @@ from .._compile import kernel
 from ..vector import ZERO, dot, scale
 from . import laws
 
+CREEPING = 0.5  # m/s through the air: the speed below which it hardly matters where drag turns about
 NO_FLOW = 1e-18  # m^2/s^2: air that passes slower than the root of this does nothing
 
 
@@ -66,6 +67,12 @@ def _acceleration(effect, flow):
     ss = effect.radius * effect.radius * dot(flow.spin, flow.spin) / vv
     coefficient = drag_coefficient(effect.law, ss, effect.reynolds * effect.reynolds * vv)
     return scale(-effect.push * coefficient * flow.speed, flow.velocity)
+
+
+@laws.longest_step.register(Drag)
+def turning_about(effect, flow, force):
+    """Longest step [s] that can't overlook how drag of the square of the speed turns about."""
+    return laws.passing(flow.velocity, force, CREEPING)
 
 
 def dynamic_push(course):

@@ -5,6 +5,7 @@ from typing import NamedTuple
 from ..vector import length, scale
 from . import laws
 from .drag import dynamic_push
+from .published import turning_about
 
 # Ferguson, McNally, McPhee (2022), doi 10.5703/1288284317493: fitted to radar carry and apex of
 # 1040 shots with a Pro V1, for spin ratios of 0.02 to 0.75. The parabola's vertex, 0.562, lies
@@ -34,6 +35,9 @@ def _acceleration(effect, flow):
     ratio = min(effect.radius * length(flow.spin) / flow.speed, -0.5 * effect.c1 / effect.c2)
     coefficient = effect.c0 + effect.c1 * ratio + effect.c2 * ratio * ratio
     return scale(-effect.push * coefficient * flow.speed, flow.velocity)
+
+
+laws.longest_step.register(FergusonDrag)(turning_about)
 
 
 def record(scene):

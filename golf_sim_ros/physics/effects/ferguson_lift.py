@@ -6,12 +6,10 @@ from typing import NamedTuple
 from ..vector import cross, length, scale
 from . import laws
 from .drag import dynamic_push
+from .published import FADE, turning_about
 
 # Ferguson, McNally, McPhee (2022); see ferguson_drag.py. Held from the vertex of the parabola, 0.524, on.
 FERGUSON_LIFT = (0.0504, 1.2031, -1.1490)
-# The published law gives 0.05 at no spin, where lift has no direction. Below this spin ratio the
-# lift fades to zero smoothly; a drive flies at 0.08 and more. (Estimate.)
-FADE = 0.01
 
 INSTEAD_OF = ('magnus',)
 
@@ -44,6 +42,9 @@ def _acceleration(effect, flow):
     # across / |across| * ratio / sqrt(ratio^2 + fade^2), with no division by a vanishing spin
     strength = coefficient * per_ratio / sqrt(ratio * ratio + effect.fade * effect.fade)
     return scale(effect.push * strength * flow.speed * flow.speed, across)
+
+
+laws.longest_step.register(FergusonLift)(turning_about)
 
 
 def record(scene):

@@ -4,11 +4,13 @@
 Every effect is a record, a ``NamedTuple`` of floats: its type is chosen when the kernel compiles,
 its fields are free to change while running.
 """
-from math import inf
+from math import inf, sqrt
 from typing import NamedTuple
 
-from .._compile import generic
-from ..vector import ZERO
+from .._compile import generic, kernel
+from ..vector import ZERO, dot
+
+BRIEF = 2e-3  # s: a step that the error control can be left to, however suddenly a law turns about
 
 
 class Flow(NamedTuple):
@@ -47,6 +49,23 @@ def spin_rate(effect, flow):
 def longest_step(effect, flow, force):
     """Longest step [s] that can't overlook `effect`, of a ball in `flow` that `force` accelerates."""
     return inf
+
+
+@kernel
+def passing(arrow, change, blunt):
+    """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes through zero.
+
+    A law that follows its direction turns about at once there, within `blunt` of its length. To first
+    order the arrow is shortest after `ahead`, and the law bends within `width` of that.
+    """
+    turning = dot(change, change)
+    ahead = -dot(arrow, change)
+    if ahead <= 0.0 or turning == 0.0:
+        return inf
+    ahead /= turning
+    shortest = max(dot(arrow, arrow) - turning * ahead * ahead, 0.0)
+    width = sqrt((shortest + blunt * blunt) / turning)
+    return max(0.5 * ahead, width, BRIEF)
 
 
 @generic

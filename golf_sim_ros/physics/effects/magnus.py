@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Magnus lift of a golf ball: lift coefficient smooth in spin ratio and Reynolds number."""
-from math import inf, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 from .._compile import kernel
 from ..vector import ZERO, cross, dot, scale
 from . import laws
 from .drag import NO_FLOW, dynamic_push, reynolds_number
-
-BRIEF = 2e-3  # s: a step that the error control can be left to, however suddenly lift turns about
 
 
 class LiftLaw(NamedTuple):
@@ -68,19 +66,9 @@ def _acceleration(effect, flow):
 
 @laws.longest_step.register(Magnus)
 def _longest_step(effect, flow, force):
-    # Where the velocity sweeps past the axis of spin, lift turns about at once. To first order
-    # spin x velocity is least after `ahead`, and the law bends within `width` of that.
-    across = cross(flow.spin, flow.velocity)
-    change = cross(flow.spin, force)
-    turning = dot(change, change)
-    ahead = -dot(across, change)
-    if ahead <= 0.0 or turning == 0.0:
-        return inf
-    ahead /= turning
+    # Lift turns about where the velocity sweeps past the axis of spin.
     blunt = effect.law.early_at * flow.speed * flow.speed / effect.radius
-    least = max(dot(across, across) - turning * ahead * ahead, 0.0)
-    width = sqrt((least + blunt * blunt) / turning)
-    return max(0.5 * ahead, width, BRIEF)
+    return laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt)
 
 
 def record(scene):

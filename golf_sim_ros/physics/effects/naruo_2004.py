@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 from . import laws
 from .drag import dynamic_push
-from .published import drag_and_lift, spin_ratio
+from .published import drag_and_lift, spin_ratio, turning_about
 from ..vector import ZERO
 
 MOST_RATIO = 1.13  # measured for S of 0.03 to this, Re of 7.1e4 to 1.25e5
@@ -31,6 +31,9 @@ def _acceleration(effect, flow):
     drag = 0.2049 + s * (0.2148 + s * (1.098 + s * (-1.760 + s * 0.7510)))
     lift = 0.0616 + s * (1.250 + s * (-1.644 + s * (1.006 - s * 0.2158)))
     return drag_and_lift(effect.push, flow, ratio, drag, lift)
+
+
+laws.longest_step.register(Naruo2004)(turning_about)
 
 
 def record(scene):

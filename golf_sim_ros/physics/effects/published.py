@@ -4,6 +4,8 @@ from math import sqrt
 
 from .._compile import kernel
 from ..vector import add, cross, length, scale
+from . import laws
+from .drag import CREEPING
 
 # The published laws give lift at no spin, where it has no direction, or let it set in infinitely steeply.
 # Below this spin ratio it fades to zero smoothly. (Estimate; a drive flies at 0.08 and more.)
@@ -26,3 +28,11 @@ def drag_and_lift(push, flow, ratio, drag, lift):
         return braking
     fading = ratio / sqrt(ratio * ratio + FADE * FADE)
     return add(braking, scale(push * lift * fading * flow.speed * flow.speed / size, across))
+
+
+@kernel
+def turning_about(effect, flow, force):
+    """Longest step [s] that can't overlook where drag or lift by a published law turns about."""
+    blunt = FADE * flow.speed * flow.speed / effect.radius
+    lifting = laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt)
+    return min(lifting, laws.passing(flow.velocity, force, CREEPING))

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from . import laws
 from .drag import dynamic_push, reynolds_number
-from .published import drag_and_lift, spin_ratio
+from .published import drag_and_lift, spin_ratio, turning_about
 from ..vector import ZERO
 
 INSTEAD_OF = ('drag', 'magnus')
@@ -31,6 +31,9 @@ def _acceleration(effect, flow):
     reynolds = min(effect.reynolds * flow.speed, 2.4e5)
     drag = 0.24 + 0.18 * ratio + 0.06 * sin(pi * (reynolds - 9e4) / 2e5)
     return drag_and_lift(effect.push, flow, ratio, drag, 0.54 * ratio ** 0.4)
+
+
+laws.longest_step.register(SmitsSmith1994)(turning_about)
 
 
 def record(scene):

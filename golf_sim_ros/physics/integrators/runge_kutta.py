@@ -6,7 +6,7 @@ import numpy as np
 
 from .._compile import generic, kernel
 from ..effects import longest_step, pull, wind_at
-from ..motion import rates
+from ..motion import STILL, rates
 from ..path import lay
 from ..state import FLIGHT, STEP
 from ..vector import along, dot, length, put, sub, vector
@@ -134,7 +134,7 @@ def hop(model, ball):
     normal = vector(ball['normal'])
     pressing = -dot(pull(model.effects, vector(ball['position'])), normal)
     leaving = dot(vector(ball['velocity']), normal)
-    return 2.0 * leaving / pressing if pressing > 0.0 and leaving > 0.0 else inf
+    return 2.0 * leaving / pressing if pressing > 0.0 and leaving > STILL else inf
 
 
 @generic
