@@ -3,6 +3,7 @@
 # make play    three shots over ROS 2: a drive, an approach, a putt; play/ keeps the recording and a picture
 # make sim     the simulator and the wind, until Ctrl-C
 # make hard    every hard case with every preset and at three rates: docs/stability.md
+# make bench   what is fast and what is not, against baselines of the same run; BENCH_ARGS=--quick for less
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #
 # Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
@@ -12,11 +13,12 @@ PYTHON ?= python3
 VENV ?= .venv
 DISTRO ?= jazzy
 PYTEST_ARGS ?=
+BENCH_ARGS ?=
 
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: play sim test hard environment clean
+.PHONY: play sim test hard bench environment clean
 
 play: environment
 	@$(VENV)/bin/python tools/play.py
@@ -29,6 +31,9 @@ test: environment
 
 hard: environment
 	@$(VENV)/bin/python tools/hard.py
+
+bench: environment
+	@$(VENV)/bin/python benchmarks/bench.py $(BENCH_ARGS)
 
 environment:
 	@command -v $(PYTHON) > /dev/null || { echo 'golf_sim_ros: $(PYTHON) is missing: Python 3.10 or newer is needed' >&2; exit 1; }

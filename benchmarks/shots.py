@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whole shots through `simulate_many`, against scipy's flight alone."""
+from concurrent.futures import ThreadPoolExecutor
+from math import hypot
+
+from golf_sim_ros.course import load_course
+from golf_sim_ros.materials import materials, shipped
+from golf_sim_ros.physics import ACCURACY, METHODS, Preset, simulate_many
+from golf_sim_ros.study.measure import played
+from golf_sim_ros.study.methods import TRUTH
+from golf_sim_ros.study.scenes import EFFECTS, Scene, club_shot, level
+from golf_sim_ros.study.scipy_flight import fly
+import numpy as np
+from timing import Row, WALL, clocked, faster, lone
+
+SHOTS = 2000
+LEVELS = tuple(10.0 ** -i for i in range(10))  # m
+RTOLS = tuple(10.0 ** (-0.5 * i) for i in range(2, 27))
+TOLERANCES = tuple(10.0 ** (-0.5 * i) for i in range(27))
+EVERYTHING = {'effects': (*EFFECTS, 'wind'), 'wind': (5.0, 3.0, 0.0)}
+
+
+def rows(quick):
+    """`Row` of each figure."""
+    drive = Scene('drive', level(ground('fairway')), club_shot('driver'))
+    yield faster('drive to rest on a level fairway, over scipy RK45 1e-6 flying only', volley(drive),
+                 lambda: fly(drive, 'RK45', 1e-6), (SHOTS, 1), least=100.0)
+    hole = drive._replace(course=load_course('golf_without_friends'))
+    yield faster('the same on golf_without_friends', volley(hole), lambda: fly(drive, 'RK45', 1e-6),
+                 (SHOTS, 1))
+    yield Row('drives a second on a level fairway, one thread', 1.0 / lone(volley(drive), SHOTS), 'a second',
+              least=30000.0)
+    with ThreadPoolExecutor(2) as two:
+        yield faster('two threads, over one', volley(drive, 10 * SHOTS, executor=two, chunks=8),
+                     volley(drive, 10 * SHOTS), clock=WALL, least=1.5)
+    bunker = drive._replace(course=level(ground('sand')))  # it ends where it lands
+    yield faster('flight with gravity alone, over one with drag, lift, spin decay, wind',
+                 volley(bunker, effects=('gravity',)), volley(bunker, **EVERYTHING), least=3.0)
+    yield from error_levels(drive, LEVELS[::3] if quick else LEVELS)
+
+
+def ground(name):
+    """A shipped `Material`."""
+    return materials({}, shipped()[0])[name]
+
+
+def volley(scene, count=SHOTS, accuracy='standard', **how):
+    """A function that plays `count` equal shots of a scene."""
+    velocities, spins = np.tile(scene.shot.velocity, (count, 1)), np.tile(scene.shot.spin, (count, 1))
+    how = {'effects': scene.effects, 'wind': scene.wind, **how}
+    return lambda: simulate_many(scene.course, velocities, spins, accuracy=accuracy, **how)
+
+
+def error_levels(scene, levels):
+    """Rows: our fastest setting that is exact to a level at first touch, over scipy's fastest flight."""
+    truth = played(scene, TRUTH).touch
+    ours, theirs = [], []
+    for preset in settings():
+        off = hypot(*np.subtract(played(scene, preset).touch, truth))
+        ours.append((off, clocked(volley(scene, SHOTS, preset)), preset))
+    for method in ('RK45', 'DOP853'):
+        for rtol in RTOLS:
+            off = hypot(*np.subtract(fly(scene, method, rtol)[:2], truth))
+            time = min(clocked(lambda: fly(scene, method, rtol)) for _ in range(3))
+            theirs.append((off, time, method, rtol))
+    for limit in levels:
+        _, _, preset = min((row for row in ours if row[0] <= limit), key=lambda row: row[1])
+        _, _, method, rtol = min((row for row in theirs if row[0] <= limit), key=lambda row: row[1])
+        yield faster(f'drive to rest, first touch exact to {limit:.0e} m, over scipy flying only',
+                     volley(scene, SHOTS, preset), lambda: fly(scene, method, rtol), (SHOTS, 1), least=50.0,
+                     note=f'tolerance {preset.method.tolerance:.0e}; {method} {rtol:.0e}')
+
+
+def settings():
+    """Presets to try: Dormand-Prince over its tolerances, with the limits of each shipped preset."""
+    for tolerance in TOLERANCES:
+        for preset in ACCURACY.values():
+            yield Preset(METHODS['dormand_prince'].record(tolerance), preset.limits)

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the benchmarks time: ours and a baseline in turns, in one run, medians of their ratios."""
+from math import inf
+from statistics import median
+from time import perf_counter, process_time
+from typing import NamedTuple
+
+ROUNDS = 7
+
+
+class Row(NamedTuple):
+    """One line of the table: a `value` in its `unit`, wanted between `least` and `most`.
+
+    ``times``: what it is made of [s], ours and the baseline's, for one of what is told. ``note``: with
+    what settings.
+    """
+
+    name: str
+    value: float
+    unit: str = 'times'
+    least: float = -inf
+    most: float = inf
+    times: tuple = ()
+    note: str = ''
+
+    @property
+    def holds(self):
+        """Whether the value is as wanted."""
+        return self.least <= self.value <= self.most
+
+
+def clocked(play, clock=process_time):
+    """Time [s] of a call."""
+    began = clock()
+    play()
+    return clock() - began
+
+
+def lone(play, count=1, rounds=ROUNDS, clock=process_time):
+    """Median time [s] of a call for one of the `count` that it does; it is tried before."""
+    play()
+    return median(clocked(play, clock) for _ in range(rounds)) / count
+
+
+def faster(name, ours, baseline, counts=(1, 1), rounds=ROUNDS, clock=process_time, **wanted):
+    """`Row` of how many times as fast a call is as the baseline's, for one of the `counts` that each does.
+
+    They are timed in turns, each tried before. Time is that of the process; where threads are
+    compared, `clock` is `perf_counter`.
+    """
+    ours(), baseline()
+    pairs = [(clocked(ours, clock) / counts[0], clocked(baseline, clock) / counts[1]) for _ in range(rounds)]
+    return Row(name, median(theirs / mine for mine, theirs in pairs), times=tuple(map(median, zip(*pairs))),
+               **wanted)
+
+
+WALL = perf_counter
