@@ -17,10 +17,10 @@ from .effects import blow
 from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, drift, launch, lay_next, read, stop_slip
-from .shot import end_shot, keep_highest, tee_off, tell_gone
+from .shot import end_shot, keep_end, keep_highest, tee_off, tell_gone
 from .splash import drown, emerge, is_over, splash
-from .state import (BALL_STOPS, BORDER, FLIGHT, HIT, HOLED, LAUNCH, LOST, MEETING, OUT, REST, SHOT_ENDS,
-                    SLIP_STOPS, SPLASH, STEP, TIME_LIMIT, WATER, moves)
+from .state import (BALL_STOPS, BORDER, ENDED, FLIGHT, HIT, HOLED, LAUNCH, LOST, MEETING, OUT, REST,
+                    SHOT_ENDS, SLIP_STOPS, SPLASH, STEP, TIME_LIMIT, WATER, moves)
 from .together import disperse, enlist
 from .vector import ZERO, along, put, unit, vector
 
@@ -201,7 +201,7 @@ def is_in_hole(model, ball):
 
 @entry
 def play_all(model, ball, strikes, gusts, crowd, log):
-    """Play shots one after the other, each from the state in `ball`. Returns the balls at the end.
+    """Play shots one after the other, each from the state in `ball`. Returns their ends, an `ENDED` array.
 
     `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
     the strike, the first 0, and the wind from then on; `crowd` and `log` are scratch.
@@ -209,10 +209,11 @@ def play_all(model, ball, strikes, gusts, crowd, log):
     model = borrowed(model)
     crowd = borrowed(crowd)
     log = borrowed(log)
-    ends = np.empty(len(strikes), ball.dtype)
+    ends = np.empty(len(strikes), ENDED)
+    played = ball.copy()
+    one = borrowed(played)
     for i in range(len(strikes)):
-        ends[i] = ball[0]
-        one = borrowed(ends[i:i + 1])
+        played[0] = ball[0]
         put(one[0]['velocity'], vector(strikes[i, 0:3]))
         put(one[0]['spin'], vector(strikes[i, 3:6]))
         tee_off(one[0], 0.0)
@@ -225,6 +226,7 @@ def play_all(model, ball, strikes, gusts, crowd, log):
                 blow(model.effects, vector(gusts[gust, 1:4]))
                 end_now(one[0], until)
                 gust += 1
+        keep_end(one[0], ends[i])
     return ends
 
 

@@ -90,7 +90,7 @@ def collision(event, time, ball, kind, other):
 def summary(balls, hole, lies):
     """Figures of ended shots, a structured array with the fields of `Result`.
 
-    `balls` is an array of `BALL` records, `lies` the materials' names. Without a hole ``to_hole``
+    `balls` is an array of `BALL` or `ENDED` records, `lies` the materials' names. Without a hole ``to_hole``
     is not a number.
     """
     told = np.zeros(len(balls), SUMMARY)

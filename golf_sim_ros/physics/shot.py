@@ -71,6 +71,27 @@ def end_shot(ball, number, now, kind, log):
 
 
 @kernel
+def keep_end(ball, end):
+    """Write what is told of a ball's shot into `end`, an `ENDED` record."""
+    end['phase'] = ball['phase']
+    end['support'] = ball['support']
+    end['material'] = ball['material']
+    put(end['position'], vector(ball['position']))
+    end['struck'] = ball['struck']
+    put(end['struck_at'], vector(ball['struck_at']))
+    put(end['launch'], vector(ball['launch']))
+    put(end['launch_spin'], vector(ball['launch_spin']))
+    end['highest'] = ball['highest']
+    end['landed'] = ball['landed']
+    end['landing'] = ball['landing']
+    put(end['landed_at'], vector(ball['landed_at']))
+    put(end['landing_velocity'], vector(ball['landing_velocity']))
+    end['bounces'] = ball['bounces']
+    end['ended'] = ball['ended']
+    end['over_time'] = ball['over_time']
+
+
+@kernel
 def tell_gone(ball, number, now, log):
     """Log that the ball has gone out of bounds."""
     event = log.events[log.count[0]]

@@ -72,6 +72,11 @@ BALL = np.dtype([
     ('bounces', 'i8'), ('stalled', 'i8'), ('stuck', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
 ], align=True)
 
+# What is told of a ball whose shot has ended, by fields of the same names.
+ENDED = np.dtype([(name, BALL[name]) for name in (
+    'phase', 'support', 'material', 'position', 'struck', 'struck_at', 'launch', 'launch_spin', 'highest',
+    'landed', 'landing', 'landed_at', 'landing_velocity', 'bounces', 'ended', 'over_time')], align=True)
+
 # What counts of a ball that does not move: the rest is written when it sets off.
 STANDING = ('position', 'velocity', 'spin', 'phase', 'support', 'material', 'normal', 'tail_end',
             'tail_press', 'leans')
