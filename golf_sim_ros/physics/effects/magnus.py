@@ -39,17 +39,17 @@ class Magnus(NamedTuple):
 
 
 @kernel
-def lift_per_ratio(law, ss, rr):
+def lift_per_ratio(law, ss, rr, flow=1.0):
     """Lift coefficient over the spin ratio, at the squares of that, `ss`, and of the Reynolds number, `rr`.
 
-    See `LiftLaw`.
+    See `LiftLaw`. `ss` may be given times `flow` squared: a division less before roots can be taken.
     """
     slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
     sped = slow + rr * rr
-    early = sqrt(ss + law.early_at * law.early_at)
-    late = sqrt(ss + law.late_at * law.late_at)
-    # Over a common denominator, as the drag.
-    return (law.early * (sped - law.lost * slow) * late + law.late * sped * early) / (sped * early * late)
+    early = sqrt(ss + law.early_at * law.early_at * flow * flow)
+    late = sqrt(ss + law.late_at * law.late_at * flow * flow)
+    return (flow * (law.early * (sped - law.lost * slow) * late + law.late * sped * early)
+            / (sped * early * late))
 
 
 @laws.acceleration.register(Magnus)
@@ -59,8 +59,8 @@ def _acceleration(effect, flow):
         return ZERO
     # push v^2 CL along across / |across|, where S is radius |across| / v^2: no division by a vanishing spin.
     across = cross(flow.spin, flow.velocity)
-    ss = effect.radius * effect.radius * dot(across, across) / (vv * vv)
-    per_ratio = lift_per_ratio(effect.law, ss, effect.reynolds * effect.reynolds * vv)
+    ss = effect.radius * effect.radius * dot(across, across)
+    per_ratio = lift_per_ratio(effect.law, ss, effect.reynolds * effect.reynolds * vv, vv)
     return scale(effect.push * effect.radius * per_ratio, across)
 
 
