@@ -17,6 +17,8 @@ from .vector import add, along, cross, dot, length, scale, unit
 
 MOST_EXPONENT = 690.0  # of exp in double precision
 NEVER = 1e300
+MOST_ROUNDS = 200
+EXACT = 1e-9  # of the parameter: a correction after which only rounding is left
 
 
 class Braked(NamedTuple):
@@ -141,29 +143,23 @@ def half_way(motion, q):
 def parameter_at(motion, time):
     """Parameter q at `time` [s], which must lie before the stop.
 
-    Newton's method, kept inside a bracket that starts as [0, the first doubling past `time`].
+    Newton's method, kept inside a bracket; its last correction squares the error.
     """
     if starts_at_rest(motion):
         return time
-    speed = motion.pp + motion.qq
     low = 0.0
-    high = time / speed
-    while after(motion, high)[0] < time:
-        low = high
-        high *= 2.0
-        if high > 1e300:
-            return inf
-    q = 0.5 * (low + high)
-    for _ in range(100):
+    high = inf
+    q = time / (motion.pp + motion.qq)
+    for _ in range(MOST_ROUNDS):
         passed = after(motion, q)
         if passed[0] < time:
             low = q
         else:
             high = q
         following = q + (time - passed[0]) / max(length(passed[1]), 1e-300)
+        if abs(following - q) <= EXACT * q:
+            return following
         if not low < following < high:
-            following = 0.5 * (low + high)
-        if abs(following - q) <= 1e-15 * q:
-            break
+            following = 0.5 * (low + high) if high < inf else 2.0 * low
         q = following
     return q

@@ -107,7 +107,10 @@ def flat_piece(land, ball, now):
     material = material_under(land, ball)
     press, downhill = surface.slope(pull(land.effects, vector(ball['position'])), normal)
     tail = in_tail(ball, now)
-    load = press * ball['tail_press'] if tail else press
+    load = press
+    if tail:
+        load *= ball['tail_press']
+        downhill = add(downhill, vector(ball['tail_air']))
     k = land.ball.inertia
     v = vector(ball['velocity'])
     drift = scale(1.0 / (1.0 + k), downhill)

@@ -9,7 +9,7 @@ from .crowd import MEMBERS
 from .effects import felt_normal, pull
 from .ground import surface
 from .impulse import Bond, impulse, take
-from .material import restitution
+from .material import lasting_restitution, restitution
 from .motion import STILL
 from .pile import leave
 from .shot import note_landing
@@ -60,7 +60,8 @@ def meet(land, balls, i, now, crowd, log):
         tell(land, ball, i, now, normal, before, log)
     ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
     material = material_of(land, ball, ball['target'], normal)
-    after_impact(land, ball, now, (supported, approach, rebound, restitution(material, rebound)), normal)
+    bounciness = lasting_restitution(material, rebound)
+    after_impact(land, ball, now, (supported, approach, rebound, bounciness), normal)
     if ball['piled']:
         leave(ball)
     elif is_caught(ball):

@@ -5,7 +5,7 @@ from .effects import flight_rates, pull, sinking
 from .ground import surface
 from .impulse import slip
 from .state import FLIGHT, ROLL, SLIDE
-from .vector import ZERO, add, along, cross, dot, length, scale, sub, unit, vector
+from .vector import ZERO, add, along, cross, dot, length, scale, sub, tangential, unit, vector
 
 STILL = 1e-9  # m/s: slower than this is not moving
 
@@ -77,9 +77,12 @@ def following_rates(land, ball, place, velocity, spin):
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
-    free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
     tail = ball['tail_end'] > ball['begin']  # single impacts do not brake a rolling ball, nor does their sum
-    load = press * ball['tail_press'] if tail else press
+    load = press
+    if tail:
+        load *= ball['tail_press']
+        downhill = add(downhill, tangential(vector(ball['tail_air']), normal))
+    free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
     resistance = 0.0 if tail else brake(material, press, downhill, k)
     if length(velocity) > STILL:
         free = along(free, -resistance / length(velocity), velocity)

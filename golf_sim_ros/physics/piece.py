@@ -18,7 +18,7 @@ from .motion import STILL
 from .pair import stays_in_reach
 from .pile import go_straight, next_instant
 from .state import BORDER, FLIGHT, HIT, NO_PART, PILED, ROLL, SLIDE, SPLASH, STEP, TIME_LIMIT, moves
-from .vector import ZERO, along, cross, dot, length, put, scale, sub, tangential, unit, vector
+from .vector import ZERO, along, cross, dot, put, scale, sub, tangential, unit, vector
 
 LONGEST_SHOT = 300.0  # s
 ENDLESS = 100  # pieces of no length, one after the other: a contact that never ends is let go for a MOMENT
@@ -111,28 +111,24 @@ def lay_contact(model, ball, now):
 
 @shared
 def drift(model, ball, now):
-    """Let the air do at once what it does during bounces too small to follow. Writes motion and tail.
+    """Let the air act on bounces too small to follow. Writes tail and spin.
 
-    It brakes and turns; where it lifts, the bounces last longer and press less.
+    It brakes and turns all the while; where it lifts, the bounces last longer and press less.
     """
     place = vector(ball['position'])
-    v = vector(ball['velocity'])
     normal = vector(ball['normal'])
     weight = pull(model.effects, place)
-    force, torque = flight_rates(model.effects, model.land.ground, place, v, vector(ball['spin']))
+    force, torque = flight_rates(model.effects, model.land.ground, place, vector(ball['velocity']),
+                                 vector(ball['spin']))
     press = -dot(weight, normal)
     longer = press / max(-dot(force, normal), LEAST_PRESS * press)
-    force = tangential(sub(force, weight), normal)
     time = longer * (ball['tail_end'] - now)
     ball['tail_end'] = now + time
     ball['tail_press'] /= longer
+    put(ball['tail_air'], tangential(sub(force, weight), normal))
     put(ball['spin'], along(vector(ball['spin']), time, torque))
-    speed = length(v)
-    if speed > STILL:
-        left = max(speed + time * dot(force, v) / speed, 0.0)
-        put(ball['velocity'], scale(left, unit(along(v, time, force), ZERO)))
-        if ball['phase'] == ROLL:
-            take_slip(model.land, ball)
+    if ball['phase'] == ROLL:
+        take_slip(model.land, ball)
 
 
 @kernel

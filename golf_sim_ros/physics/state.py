@@ -47,8 +47,10 @@ BALL = np.dtype([
     # as of the last tick
     ('position', 'f8', 3), ('velocity', 'f8', 3), ('spin', 'f8', 3), ('phase', 'i8'),
     # the contact: part of the ground under it, its material, the normal out of it; until when its
-    # bounces, too small to follow one by one, go on, and how hard they press meanwhile, over m g
+    # bounces, too small to follow one by one, go on, how hard they press meanwhile, over m g, and the
+    # acceleration along the ground that the air gives
     ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
+    ('tail_air', 'f8', 3),
     # in a pile: whether it is, for how many steps it has been calm, what holds it (1 for the ground, 2
     # for a ball, summed), rolling resistance [m/s]; how far around all contacts are known, and whether other
     # balls are on their way there; asleep: whether it leans on a ball
@@ -79,7 +81,7 @@ ENDED = np.dtype([(name, BALL[name]) for name in (
 
 # What counts of a ball that does not move: the rest is written when it sets off.
 STANDING = ('position', 'velocity', 'spin', 'phase', 'support', 'material', 'normal', 'tail_end',
-            'tail_press', 'leans')
+            'tail_press', 'tail_air', 'leans')
 PRESSED = ('pressing', 'pressed_by', 'pressed')  # the same of a ball that is not in a pile
 
 

@@ -15,6 +15,7 @@ from ..vector import along, dot, length, put, sub, vector
 # bend a drive by about a metre in that time.
 VELOCITY_WEIGHT = 1.0  # s
 SPIN_WEIGHT = 0.01  # m s
+GROUND_WEIGHT = 5.0  # on the ground, where a ball must be slow to stop, errors count so many times
 
 NO_TABLE = np.zeros((1, 1))
 NO_ERROR = np.zeros(1)
@@ -97,9 +98,10 @@ def state_after(ball, change):
 def error_in_metres(ball, weights, h):
     """Weighted size of the embedded error estimate."""
     e = mix(ball, weights, len(weights), h)
-    return sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
+    size = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
                 + VELOCITY_WEIGHT * VELOCITY_WEIGHT * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
                 + SPIN_WEIGHT * SPIN_WEIGHT * (e[6] * e[6] + e[7] * e[7] + e[8] * e[8]))
+    return size if ball['phase'] == FLIGHT else GROUND_WEIGHT * size
 
 
 @kernel
