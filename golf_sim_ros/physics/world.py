@@ -284,6 +284,8 @@ class World:
 
     def _let_happen(self, until):
         """Run the engine up to `until` on the paths' clock, and keep what it tells."""
+        if self._balls['end'].min() == inf:  # nothing will ever end: all balls rest
+            return
         start = self.time - self._now
         while True:
             status = advance(self._model, self._balls, until, self._crowd, self._log)
