@@ -21,6 +21,7 @@ from .vector import ZERO, along, cross, dot, length, put, scale, sub, vector
 MOST_TURN = 0.1  # rad of the normal in a step
 FIRST_STEP = 0.02  # s
 LEAST_STEP = 1e-9  # s
+SHORT_STEP = 1e-6  # s
 CORRECTIONS = 12  # of a step's length
 LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
 APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
@@ -141,9 +142,11 @@ def time_to_change(land, ball, force, press):
         losing = (1.0 + 1.0 / land.ball.inertia) * material['dynamic_friction'] * press
         return length(u) / losing if losing > 0.0 and length(u) > STILL else inf
     slowing = -dot(force, v)
-    if material['rolling_resistance'] > 0.0 and slowing > 0.0 and length(v) > STILL:
-        return dot(v, v) / slowing
-    return inf
+    if material['rolling_resistance'] == 0.0 or length(v) <= STILL:
+        return inf
+    # Across its way it is braked at the rate of resistance over speed, even where a slope nearly drives it.
+    braked = length(v) / (material['rolling_resistance'] * max(press, 1e-3))
+    return min(braked, dot(v, v) / slowing) if slowing > 0.0 else braked
 
 
 @shared
@@ -161,12 +164,17 @@ def share_left(land, ball, v, slipping, press, pressing):
 
 @shared
 def put_on_ground(land, ball):
-    """Put the end of the piece on the ground, moving along it. Writes the curve; returns the press there."""
+    """Put the end of the piece on the ground, moving along it. Writes the curve; returns the press there.
+
+    Not after the shortest of steps: the rounding of far places, 5e-14 m, over a nanosecond is speed.
+    """
     r = land.ball.radius
     x0 = vector(ball['position'])
-    end = along(x0, 1.0, vector(ball['path'][5]))
-    distance, normal = surface.nearest(land.ground, ball['support'], end)
-    end = along(end, r - distance, normal)
+    way = vector(ball['path'][5])
+    distance, normal = surface.nearest(land.ground, ball['support'], along(x0, 1.0, way))
+    if ball['span'] > SHORT_STEP:
+        way = along(way, r - distance, normal)
+    end = along(x0, 1.0, way)
     velocity = end_velocity(ball)
     velocity = along(velocity, -dot(velocity, normal), normal)
     spin = vector(ball['twist'][3])
@@ -175,7 +183,7 @@ def put_on_ground(land, ball):
     put(ball['twist'][3], spin)
     force, torque, press, _ = following_rates(land, ball, end, velocity, spin)
     first = ball['stages'][0]
-    lay(ball, sub(end, x0), (vector(ball['velocity']), velocity), (vector(first[3:6]), force),
+    lay(ball, way, (vector(ball['velocity']), velocity), (vector(first[3:6]), force),
         (vector(first[6:9]), torque))
     return press
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Random shots at what nothing may pass: how many are off, of how many.
+"""Random shots at what nothing may pass: how many do, of how many, and how deep any ball gets into it.
 
-A shot is off where its ball is found deeper than 2e-6 m in the ground or another ball, or on the other side
-of a sheet without having gone round its edge. The ball is looked at fifty times on the way. Speeds are 0 to
-120 m/s, spins to 2000 rad/s, the way at most 2 m; every fourth shot grazes, every fourth aims by a hair.
+A shot has passed where, at any tick, its ball's centre is on the other side of a sheet without having gone
+round its edge, or where it has gone straight on through what stood in its way. Speeds are 0 to 120 m/s, spins
+to 2000 rad/s, the way at most 2 m; every fourth shot grazes. Many balls that do not feel each other fly in
+one world: a tick of all takes little longer than one's.
 """
 import numpy as np
 
@@ -12,150 +13,239 @@ from golf_sim_ros.physics import Ball, Course, Cylinder, Heightmap, Material, Me
 from scene import gaps_to_triangles
 
 RADIUS = Ball().radius
-LOOKS = 50
-DEEP = 2e-6  # m
+AT_ONCE = 100  # shots in one world
+THROUGH = 0.5 * RADIUS  # m: what is deeper than this has passed
 FAST = 120.0  # m/s
+SLOW = 5.0  # m/s: slower than this, a shot is not watched until it has gone three times its way
 STICK = 0.01  # m: radius of the cylinder
 HALF = 4.0  # m: half of the side of sheets, which end farther away than a shot goes
+EDGE = HALF - 0.1  # m: what has been beyond may have gone round
+SITE = 20.0  # m from one pair of balls to the next
 WOOD = Material('wood', HARD.restitution, 0.0, 0.45, 0.4, 0.05, 0.002)
 
 
+def units(random, count):
+    """Unit vectors, evenly over the sphere."""
+    arrows = random.normal(size=(count, 3))
+    return arrows / np.linalg.norm(arrows, axis=1)[:, np.newaxis]
+
+
 def shots(random, count):
-    """Unit directions downwards, speeds and spins; every fourth direction is nearly level."""
+    """Unit directions downwards, every fourth nearly level, and speeds, spins and ways to go."""
     ways = random.normal(size=(count, 3))
     ways[::4, 2] *= 10.0 ** random.uniform(-9, -1, len(ways[::4]))
     ways[:, 2] = -np.abs(ways[:, 2])
-    axes = random.normal(size=(count, 3))
     return (ways / np.linalg.norm(ways, axis=1)[:, np.newaxis], random.uniform(0.1, FAST, count),
-            random.uniform(0, 2000, (count, 1)) * axes / np.linalg.norm(axes, axis=1)[:, np.newaxis])
+            random.uniform(0, 2000, (count, 1)) * units(random, count), random.uniform(0.1, 2.0, count))
+
+
+def flights(course, begins, times, rate, accuracy, others=0):
+    """Fly shots, those of like `times` together; yield their numbers and where they are at every tick.
+
+    ``begins``: what each ball's `World.place` gets, a list of (position, velocity, spin) for each shot;
+    of several balls a shot, the first is placed first. Positions are (ticks, shots, balls, 3).
+    """
+    balls = 1 + others
+    world = World(course, AT_ONCE * balls, accuracy=accuracy)
+    names, rows = np.reshape(world.names, (AT_ONCE, balls)), world._balls  # by name takes most of the time
+    nowhere = world.state()
+    order = np.argsort(times)
+    for first in range(0, len(times), AT_ONCE):
+        numbers = order[first:first + AT_ONCE]
+        world.restore(nowhere)
+        for ball in range(balls):
+            for number, own in zip(numbers, names):
+                world.place(own[ball], *begins[number][ball])
+        places = []
+        for _ in range(int(np.ceil(times[numbers[-1]] * rate))):
+            world.advance(1.0 / rate)
+            places.append(rows['position'].copy())
+        shape = -1, AT_ONCE, balls, 3
+        yield (numbers, np.reshape(places, shape)[:, :len(numbers)],
+               np.reshape(rows['velocity'], shape[1:])[:len(numbers)])
+
+
+def time_of(ways, speeds):
+    """Seconds for which shots are watched: until they would be three times their way off."""
+    return 3.0 * ways / np.maximum(speeds, SLOW)
+
+
+def at_a_sheet(shape, height, clear, setting, seed):
+    """Shots from above at a `shape` that is a function of x and y; returns how many pass, and the depth [m].
+
+    ``height`` of points (n, 2); ``clear``: signed distance of balls at (n, 3) from it.
+    """
+    count, accuracy, rate = setting
+    random = np.random.default_rng(seed)
+    begins, ways, speeds = [], [], []
+    while len(begins) < count:  # those that begin in the ground are drawn anew
+        way, speed, spin, far = shots(random, count)
+        aims = random.uniform(-1.0, 1.0, (count, 2))
+        starts = np.c_[aims, height(aims) + RADIUS] - far[:, np.newaxis] * way
+        free = clear(starts) > 1e-5
+        begins += [[one] for one in zip(starts[free], (speed[:, np.newaxis] * way)[free], spin[free])]
+        ways += far[free].tolist()
+        speeds += speed[free].tolist()
+    times = time_of(np.array(ways[:count]), np.array(speeds[:count]))
+    course = Course((Plane((0, 0, -9), material=HARD), shape), effects=GRAVITY)
+    passed, deepest = 0, 0.0
+    for _, places, _ in flights(course, begins, times, rate, accuracy):
+        places = places[:, :, 0]
+        inside = np.logical_and.accumulate(np.abs(places[..., :2]).max(-1) < EDGE)
+        depths = np.zeros(inside.shape)
+        depths[inside] = -clear(places[inside])
+        passed += (depths > THROUGH).any(0).sum()
+        deepest = max(deepest, depths.max())
+    return int(passed), deepest
+
+
+SQUARES = 12  # on a side of the sheet
 
 
 def sheet():
-    """A crumpled mesh of one layer, 12 x 12 squares in triangles."""
-    side = np.linspace(-HALF, HALF, 13)
+    """A crumpled mesh of one layer."""
+    side = np.linspace(-HALF, HALF, SQUARES + 1)
     x, y = (a.ravel() for a in np.meshgrid(side, side))
-    first = np.arange(169).reshape(13, 13)[:-1, :-1].ravel()
-    faces = np.r_[np.c_[first, first + 1, first + 13], np.c_[first + 1, first + 14, first + 13]]
-    z = np.random.default_rng(1).normal(0.0, 0.05, 169)
-    return Mesh(np.c_[x, y, z], faces, HARD)
+    first = np.arange(len(x)).reshape(SQUARES + 1, -1)[:-1, :-1].ravel()
+    beyond = first + SQUARES + 1
+    faces = np.stack((np.c_[first, first + 1, beyond], np.c_[first + 1, beyond + 1, beyond]), 1)
+    z = np.random.default_rng(1).normal(0.0, 0.05, len(x))
+    return Mesh(np.c_[x, y, z], faces.reshape(-1, 3), HARD)
 
 
-def at_a_sheet(shape, deep, count, accuracy, seed, top=lambda x: 0.0):
-    """Shots from above at a `shape`; `deep` says how far the ball is out of it, signed, if over it.
-
-    ``top`` is a height over which it is clear, at x.
-    """
-    random = np.random.default_rng(seed)
-    world = World(Course((Plane((0, 0, -9), material=HARD), shape), effects=GRAVITY), accuracy=accuracy)
-    off = 0
-    for way, speed, spin in zip(*shots(random, count)):
-        aim, far = random.uniform(-1.0, 1.0, 2), random.uniform(0.1, 2.0)
-        start = np.array((*aim, RADIUS)) - far * way
-        start[2] = max(start[2], top(start[0]) + RADIUS)
-        world.place('ball', start, speed * way, spin)
-        for _ in range(LOOKS):
-            world.advance(3.0 * far / max(speed, 5.0) / LOOKS)
-            place = np.array(world['ball'].position)
-            if np.abs(place[:2]).max() < HALF - 0.1 and deep(place) < -DEEP:
-                off += 1
-                break
-    return off
-
-
-def over_mesh(mesh):
-    """Signed clearance of a ball over a mesh that is a function of x and y."""
-    corners = np.asarray(mesh.vertices)[mesh.faces]
-    a, b, c = corners.transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-
-    def clear(place):
-        near = np.flatnonzero(np.abs(corners.mean(1)[:, :2] - place[:2]).max(1) < 1.0)
-        gap = gaps_to_triangles(corners[near], place).min() - RADIUS if len(near) else np.inf
-        for k in near:  # the triangle under the ball tells the side
-            to = place - corners[k]
-            sides = np.roll(corners[k], -1, 0) - corners[k]
-            if (sides[:, 0] * to[:, 1] - sides[:, 1] * to[:, 0] >= 0).all():
-                return -1.0 if to[0] @ normals[k] < 0.0 else gap
-        return gap
-    return clear
-
-
-def at_the_mesh(count, accuracy, seed=1):
+def at_the_mesh(setting, seed=1):
     """At a crumpled sheet of triangles."""
     mesh = sheet()
-    return at_a_sheet(mesh, over_mesh(mesh), count, accuracy, seed, lambda x: 0.2)
+    corners = mesh.vertices[mesh.faces].reshape(SQUARES, SQUARES, 2, 3, 3)
+    highest = mesh.vertices[:, 2].max() + RADIUS
+
+    def around(places):
+        """Corners (n, 18, 3, 3) of the triangles of the square under each place, and of those around."""
+        square = np.floor((places[:, :2] + HALF) * SQUARES / (2 * HALF)).astype(int).clip(1, SQUARES - 2)
+        near = [corners[square[:, 1] + j, square[:, 0] + i] for i in (-1, 0, 1) for j in (-1, 0, 1)]
+        return np.concatenate(near, 1)
+
+    def over(triangles, places):
+        """Height of the triangle in plan at each place."""
+        to, sides = places[:, np.newaxis, np.newaxis] - triangles, np.roll(triangles, -1, 2) - triangles
+        inside = (sides[..., 0] * to[..., 1] - sides[..., 1] * to[..., 0]).min(2)
+        own = triangles[np.arange(len(places)), inside.argmax(1)]
+        normal = np.cross(own[:, 1] - own[:, 0], own[:, 2] - own[:, 0])
+        return own[:, 0, 2] - ((places - own[:, 0])[:, :2] * normal[:, :2]).sum(1) / normal[:, 2]
+
+    def clear(places):
+        found = places[:, 2] - highest
+        near = np.flatnonzero(found < 0)
+        for some in np.array_split(near, 1 + len(near) // 4000):
+            triangles = around(places[some])
+            points = np.repeat(places[some], triangles.shape[1], 0)[:, np.newaxis]
+            gaps = gaps_to_triangles(triangles.reshape(-1, 3, 3), points).reshape(len(some), -1).min(1)
+            above = places[some, 2] > over(triangles, places[some])
+            found[some] = np.where(above, gaps - RADIUS, -RADIUS)
+        return found
+
+    def height(points):
+        points = np.c_[points, np.zeros(len(points))]
+        return over(around(points), points)
+    return at_a_sheet(mesh, height, clear, setting, seed)
 
 
-def at_the_patch(count, accuracy, seed=2):
+def at_the_patch(setting, seed=2):
     """At a level patch."""
     patch = Patch((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 2 * HALF, 2 * HALF, HARD)
-    return at_a_sheet(patch, lambda place: place[2] - RADIUS, count, accuracy, seed)
+    return at_a_sheet(patch, lambda points: np.zeros(len(points)), lambda places: places[:, 2] - RADIUS,
+                      setting, seed)
 
 
-def at_the_step(count, accuracy, seed=3):
-    """At a height map with a rise of 1 m over one cell: flat on both sides of it, where depth is told."""
-    heights = np.zeros((17, 17))
-    heights[:, 9:] = 1.0
+def spline(heights, spacing):
+    """Height at x of the natural cubic spline through equally spaced `heights`, the first at -HALF."""
+    n = len(heights)
+    matrix, right = np.eye(n), np.zeros(n)
+    for i in range(1, n - 1):
+        matrix[i, i - 1:i + 2] = 1.0, 4.0, 1.0
+        right[i] = 6.0 * (heights[i - 1] - 2.0 * heights[i] + heights[i + 1]) / spacing ** 2
+    bends = np.linalg.solve(matrix, right)
 
-    def clear(place):
-        # The spline swings beside the rise; four cells away by less than 1/50 of it.
-        if abs(place[0] - 0.25) < 2.5:
-            return np.inf if place[2] > -0.2 else -1.0
-        return place[2] - (1.0 if place[0] > 0 else 0.0) + 0.02
-    return at_a_sheet(Heightmap(heights, (-4.0, -4.0), 0.5, HARD), clear, count, accuracy, seed,
-                      lambda x: 0.15 if x < -2.0 else 1.2)
+    def height(x):
+        i = np.floor((x + HALF) / spacing).astype(int).clip(0, n - 2)
+        t = (x + HALF) / spacing - i
+        return ((1 - t) * heights[i] + t * heights[i + 1] + spacing ** 2 / 6
+                * (((1 - t) ** 3 - (1 - t)) * bends[i] + (t ** 3 - t) * bends[i + 1]))
+    return height
 
 
-def at_the_stick(count, accuracy, seed=4):
+def at_the_step(setting, seed=3):
+    """At a height map with a rise of 1 m over one cell."""
+    cells, spacing = 16, 0.5
+    column = np.where(np.arange(cells + 1) > cells // 2, 1.0, 0.0)
+    rise = spline(column, spacing)
+    highest = rise(np.linspace(-HALF, HALF, 10001)).max() + 2 * RADIUS
+    steps = np.linspace(-1.2 * RADIUS, 1.2 * RADIUS, 101)  # along x, to where the curve is looked at
+
+    def clear(places):
+        found = places[:, 2] - highest
+        near = np.flatnonzero(found < 0)
+        for some in np.array_split(near, 1 + len(near) // 20000):
+            x, z = places[some, 0], places[some, 2]
+            squares = steps ** 2 + (rise(x[:, np.newaxis] + steps) - z[:, np.newaxis]) ** 2
+            best = squares.argmin(1)
+            inner = np.flatnonzero((best > 0) & (best < len(steps) - 1))  # else it is far off
+            before, least, after = (squares[inner, best[inner] + k] for k in (-1, 0, 1))
+            squares = squares.min(1)
+            squares[inner] = least - (after - before) ** 2 / (8 * (before - 2 * least + after))
+            found[some] = np.where(z > rise(x), np.sqrt(np.maximum(squares, 0.0)) - RADIUS, -RADIUS)
+        return found
+    map_ = Heightmap(np.tile(column, (cells + 1, 1)), (-HALF, -HALF), spacing, HARD)
+    return at_a_sheet(map_, lambda points: rise(points[:, 0]), clear, setting, seed)
+
+
+def at_the_stick(setting, seed=4):
     """At an upright cylinder of 10 mm: nothing overlaps it, nothing goes straight on."""
+    count, accuracy, rate = setting
     random = np.random.default_rng(seed)
-    stick = Cylinder((2.0, 0.0, 0.0), STICK, 50.0, WOOD)
-    world = World(Course((Plane(material=HARD),), obstacles=(stick,), effects=GRAVITY), accuracy=accuracy)
-    reach, off = STICK + RADIUS, 0
+    course = Course((Plane(material=HARD),), obstacles=(Cylinder((2.0, 0.0, 0.0), STICK, 50.0, WOOD),),
+                    effects=GRAVITY)
+    reach = STICK + RADIUS
     aside = random.uniform(-1, 1, count) * reach
     aside[::4] = reach * (1 - 10.0 ** random.uniform(-12, -2, len(aside[::4])))
-    _, speeds, spins = shots(random, count)
-    for y, speed, spin, far in zip(aside, speeds, spins, random.uniform(0.1, 2.0, count)):
-        world.place('ball', (2.0 - far, y, 30.0), (speed, 0.0, 0.0), spin)
-        time = min(2.0 * far / speed, 2.0)
-        for _ in range(LOOKS):
-            world.advance(time / LOOKS)
-            x, y_now, z = world['ball'].position
-            if np.hypot(x - 2.0, y_now) < reach - DEEP:
-                off += 1
-                break
-        else:
-            off += world['ball'].velocity[:2] == (speed, 0.0) and x > 2.0
-    return off
+    _, speeds, spins, ways = shots(random, count)
+    begins = [[((2.0 - way, y, 30.0), (speed, 0.0, 0.0), spin)]
+              for way, y, speed, spin in zip(ways, aside, speeds, spins)]
+    passed, deepest = 0, 0.0
+    for numbers, places, velocities in flights(course, begins, time_of(ways, speeds), rate, accuracy):
+        away = np.hypot(places[..., 0, 0] - 2.0, places[..., 0, 1]).min(0)
+        straight = np.abs(velocities[:, 0, 1]) < 1e-8 * speeds[numbers]  # the barest touch turns it by 1e-6
+        passed += ((away < reach - THROUGH) | straight & (places[-1, :, 0, 0] > 2.0)).sum()
+        deepest = max(deepest, reach - away.min())
+    return int(passed), deepest
 
 
-def at_a_ball(count, accuracy, seed=5):
-    """At a ball that lies still: nothing overlaps it, nothing goes straight on."""
+def at_a_ball(setting, seed=5):
+    """At a ball that falls alike: nothing overlaps it, nothing goes straight on."""
+    count, accuracy, rate = setting
     random = np.random.default_rng(seed)
-    world = World(Course((Plane(material=HARD),), tee=(0.0, 500.0), effects=('gravity', 'ball_ball')),
-                  ('still', 'fast'), accuracy=accuracy)
-    off = 0
-    ways, speeds, spins = shots(random, count)
+    course = Course((Plane(material=HARD),), tee=(0.0, -500.0), effects=('gravity', 'ball_ball'))
+    ways, speeds, spins, fars = shots(random, count)
     asides = random.uniform(0, 1, count)
     asides[::4] = 1 - 10.0 ** random.uniform(-9, -2, len(asides[::4]))
-    for way, speed, spin, aside in zip(ways, speeds, spins, asides):
-        across = np.cross(way, random.normal(size=3))
-        far = random.uniform(0.1, 2.0)
-        start = np.array((0.0, 0.0, 30.0)) - far * way + 2 * RADIUS * aside * across / np.linalg.norm(across)
-        world.place('fast', (0.0, 400.0, RADIUS))
-        world.place('still', (0.0, 0.0, 30.0), velocity=(0.0, 0.0, 0.0))
-        world.place('fast', start, speed * way, spin)
-        time = min(2.0 * far / speed, 1.0)  # both fall alike
-        for _ in range(LOOKS):
-            world.advance(time / LOOKS)
-            apart = np.subtract(world['fast'].position, world['still'].position)
-            if np.linalg.norm(apart) < 2 * RADIUS - DEEP:
-                off += 1
-                break
-        else:
-            turned = np.linalg.norm(np.array(world['still'].velocity)[:2]) > 0.0
-            off += not turned and apart @ way > 0.1 * far and aside < 1 - 1e-6
-    return off
+    across = np.cross(ways, units(random, count))
+    across *= (2 * RADIUS * asides / np.linalg.norm(across, axis=1))[:, np.newaxis]
+    times = np.minimum(time_of(fars, speeds), 1.0)
+    sites = np.zeros((count, 3))
+    sites[np.argsort(times), 0] = SITE * (np.arange(count) % AT_ONCE)
+    sites[:, 2] = 30.0
+    begins = [[(site, (0.0, 0.0, 0.0)), (site + way, velocity, spin)] for site, way, velocity, spin in
+              zip(sites, across - fars[:, np.newaxis] * ways, speeds[:, np.newaxis] * ways, spins)]
+    passed, deepest = 0, 0.0
+    for numbers, places, velocities in flights(course, begins, times, rate, accuracy, others=1):
+        apart = places[:, :, 1] - places[:, :, 0]
+        depths = 2 * RADIUS - np.linalg.norm(apart, axis=-1)
+        moved = velocities[:, 0, :2].any(1)
+        beyond = (apart[-1] * ways[numbers]).sum(-1) > 0.0
+        straight = ~moved & beyond & (asides[numbers] < 1 - 1e-6)
+        passed += ((depths > THROUGH).any(0) | straight).sum()
+        deepest = max(deepest, depths.max())
+    return int(passed), deepest
 
 
 TARGETS = {'a single-sheet mesh': at_the_mesh, 'a patch': at_the_patch,
