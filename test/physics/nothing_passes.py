@@ -117,13 +117,18 @@ def at_the_mesh(setting, seed=1):
     """At a crumpled sheet of triangles."""
     mesh = sheet()
     corners = mesh.vertices[mesh.faces].reshape(SQUARES, SQUARES, 2, 3, 3)
-    highest = mesh.vertices[:, 2].max() + RADIUS
+    blocks = np.stack([np.roll(corners, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)], 2)
+    blocks = blocks.reshape(SQUARES, SQUARES, 18, 3, 3)
+    tops = blocks[..., 2].max((2, 3)) + RADIUS
+
+    def square(places):
+        """Row and column of the square under each place; of those at the sides, the next one inside."""
+        i, j = np.floor((places[:, :2] + HALF) * SQUARES / (2 * HALF)).astype(int).clip(1, SQUARES - 2).T
+        return j, i
 
     def around(places):
         """Corners (n, 18, 3, 3) of the triangles of the square under each place, and of those around."""
-        square = np.floor((places[:, :2] + HALF) * SQUARES / (2 * HALF)).astype(int).clip(1, SQUARES - 2)
-        near = [corners[square[:, 1] + j, square[:, 0] + i] for i in (-1, 0, 1) for j in (-1, 0, 1)]
-        return np.concatenate(near, 1)
+        return blocks[square(places)]
 
     def over(triangles, places):
         """Height of the triangle in plan at each place."""
@@ -134,7 +139,7 @@ def at_the_mesh(setting, seed=1):
         return own[:, 0, 2] - ((places - own[:, 0])[:, :2] * normal[:, :2]).sum(1) / normal[:, 2]
 
     def clear(places):
-        found = places[:, 2] - highest
+        found = places[:, 2] - tops[square(places)]
         near = np.flatnonzero(found < 0)
         for some in np.array_split(near, 1 + len(near) // 4000):
             triangles = around(places[some])
@@ -179,13 +184,14 @@ def at_the_step(setting, seed=3):
     cells, spacing = 16, 0.5
     column = np.where(np.arange(cells + 1) > cells // 2, 1.0, 0.0)
     rise = spline(column, spacing)
-    highest = rise(np.linspace(-HALF, HALF, 10001)).max() + 2 * RADIUS
+    fine = rise(np.linspace(-HALF, HALF, 1601))  # every 5 mm; the highest within 30 mm says what is clear
+    tops = np.max([np.roll(fine, k) for k in range(-6, 7)], 0) + 1.2 * RADIUS
     steps = np.linspace(-1.2 * RADIUS, 1.2 * RADIUS, 101)  # along x, to where the curve is looked at
 
     def clear(places):
-        found = places[:, 2] - highest
+        found = places[:, 2] - tops[np.rint((places[:, 0] + HALF) * 200).astype(int).clip(0, 1600)]
         near = np.flatnonzero(found < 0)
-        for some in np.array_split(near, 1 + len(near) // 20000):
+        for some in np.array_split(near, 1 + len(near) // 2000):
             x, z = places[some, 0], places[some, 2]
             squares = steps ** 2 + (rise(x[:, np.newaxis] + steps) - z[:, np.newaxis]) ** 2
             best = squares.argmin(1)
