@@ -72,10 +72,11 @@ def cell(worst, failure, ends):
 def passed(count):
     """Table of how many of `count` shots passed each target, and how deep any ball got into it."""
     lines = ['', '## Nothing is passed', '',
-             f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within 2 m,',
-             f'every fourth grazing), at each of the three rates, with `standard`, and of {count // 10:,} with the',
-             'others, so many passed through. In brackets: how deep any ball was found in it, at any tick [m].',
-             'Expected: 0, and no deeper than 2e-6 m and five times what a preset lets a path be off.', '',
+             f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within',
+             '2 m, every fourth grazing), at each of the three rates, with `standard`, and of',
+             f'{count // 10:,} with the others, so many passed through. In brackets: how deep any ball was',
+             'found in it, at any tick [m]. Expected: 0, and no deeper than 2e-6 m and five times what a',
+             'preset lets a path be off.', '',
              '| target | ' + ' | '.join(ACCURACY) + ' |', '|---|' + '---|' * len(ACCURACY)]
     for target, shoot in TARGETS.items():
         cells = []
