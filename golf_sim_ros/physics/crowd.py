@@ -125,8 +125,10 @@ def unite(crowd, i):
 
 @shared
 def plant(crowd, balls, radius):
-    """Build the tree anew. Writes nodes, leaves, order, count."""
+    """Build the tree anew, whatever it was before. Writes nodes, leaves, order, count."""
     crowd.count[AGE] = 0
+    for i in range(len(balls)):
+        crowd.order[i] = i
     crowd.nodes[0]['first'] = 0
     crowd.nodes[0]['count'] = len(balls)
     crowd.nodes[0]['parent'] = -1

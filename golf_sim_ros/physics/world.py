@@ -244,6 +244,7 @@ class World:
         """Start the clock of paths anew when nothing moves: same strikes give the same bits."""
         if not self.moving:
             self._now = 0.0
+            self._crowd.count[AGE] = len(self.names)  # where balls are near each other is found out anew
 
     def set_wind(self, wind):
         """Let the air move with `wind` [m/s] at 10 m over the ground from now on.

@@ -183,6 +183,20 @@ def test_several_balls_play_on_from_a_state_as_they_would_have():
     assert np.array_equal(motion(world, world.names), motion(other, world.names))
 
 
+def test_what_a_world_has_played_before_changes_no_bit_of_a_break():
+    world = table(CLOTH, 16, 0.9, 0.05)
+    places = [(row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS) for row in range(5) for k in range(row + 1)]
+    for name, place in zip(world.names, (*places, (-0.3, 0.0))):
+        world.place(name, (*place, RADIUS))
+    start, ends = world.state(), []
+    for _ in range(3):
+        world.restore(start)
+        world.strike(world.names[-1], (3.0, 0.0, 0.0))
+        world.advance(20.0)
+        ends.append(motion(world, world.names)[0])
+    assert np.array_equal(ends[0], ends[1]) and np.array_equal(ends[0], ends[2])
+
+
 def overlaps(world):
     """How deep [m] the two balls that overlap most do."""
     places = motion(world, world.names)[0]

@@ -6,7 +6,8 @@ import os
 from driving_range import GRAVITY, HARD, random_shots
 from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import Course, Heightmap, Material, Phase, Plane, Restitution, World, simulate_many
+from golf_sim_ros.physics import (ACCURACY, METHODS, Course, Heightmap, Material, Phase, Plane, Preset,
+                                  Restitution, World, simulate_many)
 from golf_sim_ros.physics._compile import entry
 from golf_sim_ros.physics.ground import heightmap, laws
 from golf_sim_ros.physics.ground.bicubic import nodes
@@ -161,6 +162,13 @@ def test_rest_on_a_wavy_green_is_the_same_to_a_millimetre_at_any_accuracy():
     for velocity in [(3.2, 1.0, 0), (-1.5, 0.4, 0), (0.5, -2.5, 1)]:
         ends = [rests_at(green, (0, 0), velocity, accuracy) for accuracy in ('standard', 'reference')]
         np.testing.assert_allclose(ends[0], ends[1], atol=1e-3)
+
+
+def test_fixed_steps_come_to_rest_on_a_wavy_green_too():
+    green = Course((surface(lambda x, y: 0.3 * np.sin(x / 6) * np.cos(y / 7) + 0.02 * x),))
+    fixed = Preset(METHODS['rk4'].record(0.02), ACCURACY['reference'].limits)
+    ends = [rests_at(green, (0, 0), (3.2, 1.0, 0), accuracy) for accuracy in (fixed, 'reference')]
+    np.testing.assert_allclose(ends[0], ends[1], atol=1e-4)
 
 
 def test_nothing_tunnels_through_a_steep_map():

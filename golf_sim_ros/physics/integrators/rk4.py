@@ -30,4 +30,9 @@ def _first_step(method, speed, hop):
     return method.length
 
 
+@runge_kutta.next_step.register(RungeKutta4)
+def _next_step(method, h, error):
+    return method.length, True  # however short an event has made this one
+
+
 METHOD = RungeKutta4
