@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measuring a method on a scene: how far off it is, and how long it takes."""
 from math import hypot, sqrt
-from time import perf_counter
+from time import perf_counter, process_time
 from typing import NamedTuple
 
 import numpy as np
 
-from ..physics import simulate_many
+from ..physics import Result, World, simulate_many
+from .scenes import Game
 
 BATCH_TIME = 0.02  # s: a batch of shots is at least this long
 REPEATS = 5
 MOST_SHOTS = 20000
+LONG = 300.0  # s: nothing moves for longer
+NOWHERE = (np.nan, np.nan)
 
 
 class Row(NamedTuple):
@@ -31,7 +34,7 @@ class Row(NamedTuple):
 
 
 class Truth(NamedTuple):
-    """Where a shot touches first, along and across its launch, and where it rests [m].
+    """Where a shot touches first, along and across its launch, and where all balls rest, (n, 3) [m].
 
     Not numbers where a method does not play as far.
     """
@@ -40,48 +43,103 @@ class Truth(NamedTuple):
     rest: tuple
 
     def errors(self, other):
-        """Distances of the first touch and of the rest of `other` from these."""
-        return (hypot(*(a - b for a, b in zip(self.touch, other.touch))),
-                hypot(*(a - b for a, b in zip(self.rest, other.rest))))
+        """Distances of the first touch, and of the ball whose rest is farthest off, of `other` from these."""
+        return (hypot(*np.subtract(self.touch, other.touch)),
+                float(np.linalg.norm(np.subtract(self.rest, other.rest), axis=1).max()))
 
 
-def played(scene, accuracy, count=1):
-    """Result of `count` equal shots of a scene, as `Truth`, from the first of them."""
+class Stage:
+    """A scene ready to be played at an accuracy, with some effects: what is built for it is built once.
+
+    ``stage(count)`` plays `count` times and gives the `Truth` of one.
+    """
+
+    def __init__(self, scene, accuracy, effects=None):
+        self.scene, self.accuracy, self.effects = scene, accuracy, effects or scene.effects
+        self.world = set_up(scene, accuracy, self.effects) if isinstance(scene, Game) else None
+        self.start = self.world and self.world.state()
+
+    def __call__(self, count=1):
+        """Play."""
+        if self.world is None:
+            return played(self.scene, self.accuracy, count, self.effects)
+        for _ in range(count):
+            self.world.restore(self.start)
+            for ball, velocity, spin in self.scene.strikes:
+                self.world.strike(self.world.names[ball], velocity, spin)
+                if not self.scene.together:
+                    self.world.advance(LONG)
+            self.world.advance(LONG)
+        return Truth(NOWHERE, tuple(self.world[name].position for name in self.world.names))
+
+
+def set_up(game, accuracy, effects):
+    """`World` of a `Game` before the first strike."""
+    world = World(game.course, len(game.places), effects, accuracy, game.wind)
+    for name, place in zip(world.names, game.places):
+        world.place(name, place)
+    return world
+
+
+def played(scene, accuracy, count=1, effects=None):
+    """Result of `count` equal shots of a `Scene`, as `Truth`, from the first of them."""
     shot = scene.shot
     told = simulate_many(scene.course, np.tile(shot.velocity, (count, 1)), np.tile(shot.spin, (count, 1)),
-                         scene.wind, scene.effects, accuracy)[0]
-    ahead = sqrt(max(told['carry'] ** 2 - told['carry_side'] ** 2, 0.0))
-    return Truth((ahead, told['carry_side']), tuple(told['position']))
+                         scene.wind, effects or scene.effects, accuracy)[0]
+    return truth(told['carry'], told['carry_side'], told['position'])
 
 
-def timed(play):
-    """Median time [s] of one more shot of ``play(count)``: what a call itself costs is taken off."""
+def truth(carry, side, position):
+    """`Truth` of the figures of one ball's result."""
+    return Truth((sqrt(max(carry * carry - side * side, 0.0)), side), (tuple(position),))
+
+
+def ticked(scene, accuracy, rate):
+    """`Truth` of a `Scene` in still air, played tick by tick, and time [s] that a simulated second takes."""
+    world = World(scene.course, effects=scene.effects, accuracy=accuracy)
+    start, fastest = world.state(), np.inf
+    for _ in range(REPEATS):
+        world.restore(start)
+        world.strike(world.names[0], *scene.shot)
+        ends, ticks, began = [], 0, process_time()
+        while not ends:
+            ends = [event for event in world.advance(1.0 / rate) if isinstance(event, Result)]
+            ticks += 1
+        fastest = min(fastest, (process_time() - began) * rate / ticks)
+    return truth(ends[0].carry, ends[0].carry_side, ends[0].position), fastest
+
+
+def timed(*plays):
+    """Median times [s] of one more shot of each ``play(count)``, in turns; what a call costs is taken off."""
+    sizes = [enough(play) for play in plays]
+    rounds = [[(clocked(play, count) - single) / (count - 1) for play, (single, count) in zip(plays, sizes)]
+              for _ in range(REPEATS)]
+    return tuple(float(t) for t in np.median(rounds, axis=0))
+
+
+def enough(play):
+    """Time [s] of a call for one shot, and how many shots take long enough to be timed."""
     single = min(clocked(play, 1) for _ in range(REPEATS))
     count = 2
     while clocked(play, count) - single < BATCH_TIME and count < MOST_SHOTS:
         count *= 4
-    times = [(clocked(play, count) - single) / (count - 1) for _ in range(REPEATS)]
-    return float(np.median(times))
+    return single, count
 
 
 def clocked(play, count):
-    """Time [s] of ``play(count)``."""
-    began = perf_counter()
+    """Time [s] that the process is busy with ``play(count)``."""
+    began = process_time()
     play(count)
-    return perf_counter() - began
-
-
-def first(play):
-    """What ``play()`` gives the first time, and the time [s] it takes, compiling included."""
-    began = perf_counter()
-    found = play()
-    return found, perf_counter() - began
+    return process_time() - began
 
 
 def measured(scene, truth, method):
     """`Row` of a `Method` on a scene."""
-    found, compiled = first(lambda: method.play(scene, 1))
+    began = perf_counter()
+    play = method.ready(scene)
+    found = play(1)
+    compiled = perf_counter() - began
     touch, rest = truth.errors(found)
-    time = timed(lambda count: method.play(scene, count))
-    return Row(scene.name, method.name, method.setting, touch if scene.flies else np.nan,
-               rest, time, compiled)
+    time, = timed(play)
+    return Row(scene.name, method.name, method.setting, touch if scene.flies else np.nan, rest, time,
+               compiled)

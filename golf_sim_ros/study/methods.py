@@ -5,9 +5,10 @@ from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..physics import ACCURACY, METHODS, Preset
+from ..physics import ACCURACY, METHODS, Plane, Preset
 from ..physics.report_2019 import play_report_2019
-from .measure import Truth, played
+from .measure import Stage, Truth
+from .scenes import Scene
 from .scipy_flight import fly
 
 SETTINGS = {
@@ -17,15 +18,18 @@ SETTINGS = {
 }
 SCIPY = {'RK45': (1e-3, 1e-4, 1e-6, 1e-8, 1e-10), 'DOP853': (1e-3, 1e-6, 1e-8, 1e-10, 1e-12)}
 TRUTH = Preset(METHODS['dormand_prince'].record(1e-13), ACCURACY['reference'].limits._replace(settle=1e-5))
-NOT_PLAYED = (np.nan, np.nan, np.nan)
+NOT_PLAYED = ((np.nan, np.nan, np.nan),)
 
 
 class Method(NamedTuple):
-    """``play(scene, count)`` plays equal shots and gives the `Truth` of the first."""
+    """``ready(scene)`` gives a function that plays as many equal shots as asked: it gives the `Truth` of one.
+
+    ``setting`` is that of its dial.
+    """
 
     name: str
     setting: str
-    play: Callable
+    ready: Callable
 
 
 def methods(scene):
@@ -33,7 +37,8 @@ def methods(scene):
     found = [Method(name, f'{METHODS[name].dial} {setting:.3g}', partial(by_preset, made(name, setting)))
              for name, settings in SETTINGS.items() for setting in settings]
     found += [Method('preset', name, partial(by_preset, preset)) for name, preset in ACCURACY.items()]
-    found.append(Method('report_2019', '50 Hz', by_report))
+    if isinstance(scene, Scene) and all(isinstance(shape, Plane) for shape in scene.course.ground):
+        found.append(Method('report_2019', '50 Hz', lambda scene: partial(by_report, scene)))
     if scene.flies:
         found += [Method(f'scipy {name}', f'rtol {rtol:.0e}', partial(by_scipy, name, rtol))
                   for name, settings in SCIPY.items() for rtol in settings]
@@ -45,9 +50,9 @@ def made(name, setting):
     return Preset(METHODS[name].record(setting), ACCURACY['reference'].limits)
 
 
-def by_preset(preset, scene, count):
+def by_preset(preset, scene):
     """Play with the engine of this package."""
-    return played(scene, preset, count)
+    return Stage(scene, preset)
 
 
 def by_report(scene, count):
@@ -55,11 +60,9 @@ def by_report(scene, count):
     shot = scene.shot
     touch, rest = play_report_2019(scene.course, np.tile(shot.velocity, (count, 1)),
                                    np.tile(shot.spin, (count, 1)), scene.wind)
-    return Truth(tuple(touch[0, :2]), tuple(rest[0]))
+    return Truth(tuple(touch[0, :2]), (tuple(rest[0]),))
 
 
-def by_scipy(name, rtol, scene, count):
+def by_scipy(name, rtol, scene):
     """Fly with scipy up to the first touch."""
-    for _ in range(count):
-        end = fly(scene, name, rtol)
-    return Truth(tuple(end[:2]), NOT_PLAYED)
+    return lambda count: [Truth(tuple(fly(scene, name, rtol)[:2]), NOT_PLAYED) for _ in range(count)][0]

@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes of the accuracy study: a shot, where, and in what wind."""
-from math import cos, pi, sin
+"""Scenes of the accuracy study: a shot, where, and in what wind; or several strikes of several balls."""
+from math import cos, pi, sin, sqrt
 from typing import NamedTuple
 
+import numpy as np
+
+from ..course import load_course
 from ..materials import materials, shipped
-from ..physics import Course, Material, Plane, Restitution, Shot
+from ..physics import Ball, Course, Material, Mesh, Plane, Restitution, Shot
 from ..tools.clubs import CLUBS
 from ..tools.launch_monitor import velocity_and_spin
 from ..wind.gusts import Gusts, GustSettings
@@ -13,6 +16,8 @@ from ..wind.gusts import Gusts, GustSettings
 EFFECTS = ('gravity', 'drag', 'magnus', 'spin_decay', 'turf')
 GUST_STEP = 0.5  # s between the winds of a gusty scene
 STEEP = 0.02  # slope of the greens: 2 %
+HEAVY_GOING = 0.1  # rolling resistance of the hills, so that a ball stops on their slopes
+BUNKER = (317.0, -15.5)  # m, in the one before the green of golf_without_friends
 
 
 class Scene(NamedTuple):
@@ -32,6 +37,22 @@ class Scene(NamedTuple):
         """Names of the effects that the scene is studied with."""
         windy = not isinstance(self.wind[0], float)
         return (*EFFECTS, 'wind') if windy else EFFECTS
+
+
+class Game(NamedTuple):
+    """Balls at `places`, struck one after another: each strike when all balls rest, or all `together`.
+
+    ``strikes``: number of the ball, velocity [m/s], spin [rad/s].
+    """
+
+    name: str
+    course: Course
+    places: tuple
+    strikes: tuple
+    effects: tuple
+    wind: tuple = (0.0, 0.0, 0.0)
+    together: bool = False
+    flies: bool = False
 
 
 def gusty(seconds=10.0, seed=1):
@@ -56,24 +77,76 @@ def sloping(material):
     return Course(ground=(Plane((0.0, 0.0, 0.0), (0.0, -STEEP, 1.0), material),))
 
 
-def scenes():
-    """Scenes of the quick study.
+def lofted(speed, degrees, backspin):
+    """`Shot` along +x at a launch angle."""
+    angle = degrees * pi / 180
+    return Shot((speed * cos(angle), 0.0, speed * sin(angle)), (0.0, -backspin, 0.0))
 
-    Returns
-    -------
-    tuple of Scene
 
-    Raises
-    ------
-    CourseError
-        A shipped material can't be read.
-    """
+def quick_scenes():
+    """Scenes of the quick study: a tuple of `Scene`; CourseError where a shipped material can't be read."""
     found = materials({}, shipped()[0])
-    hard = Material('hard', Restitution(0.8), 0.0, 0.5, 0.3, 0.02, 0.003)
-    drop = 40 * pi / 180
     return (
         Scene('drive in gusty wind', level(found['fairway']), club_shot('driver'), gusty()),
         Scene('iron into a green', level(found['green']), club_shot('7i')),
         Scene('putt across a slope', sloping(found['green']), Shot((2.0, 0.0, 0.0)), flies=False),
-        Scene('bouncing on hard ground', level(hard), Shot((10 * cos(drop), 0.0, 10 * sin(drop)))),
+        Scene('bouncing on hard ground', level(hard()), lofted(10.0, 40.0, 0.0)),
     )
+
+
+def scenes():
+    """Scenes of the full study: a tuple of `Scene` and `Game`; CourseError as in `quick_scenes`."""
+    green = materials({}, shipped()[0])['green']
+    in_sand = load_course('golf_without_friends')._replace(tee=BUNKER)
+    return (
+        *quick_scenes(),
+        Scene('chip and run', level(green), lofted(11.0, 24.0, 150.0)),
+        Scene('bunker shot', in_sand, Shot(*turned(lofted(16.0, 50.0, 400.0), 40.0)), flies=False),
+        Scene('breaking putt', load_course('putting_green'), Shot((2.6, 1.6, 0.0)), flies=False),
+        Scene('mesh bounce', hills(20_000), lofted(10.0, 40.0, 0.0), flies=False),
+        rack(15),
+        hole(),
+    )
+
+
+def hard(rolling_resistance=0.02):
+    """A `Material` off which a ball bounces often."""
+    return Material('hard', Restitution(0.8), 0.0, 0.5, 0.3, rolling_resistance, 0.003)
+
+
+def hills(triangles):
+    """A `Course` of a mesh of about as many `triangles`: a bowl 120 m wide with gentle hills in it."""
+    across = round(sqrt(triangles / 2)) + 1
+    x, y = map(np.ravel, np.meshgrid(*2 * [np.linspace(-60.0, 60.0, across)]))
+    z = 0.0005 * (x * x + y * y) - 0.15 * np.cos(0.4 * x) * np.cos(0.5 * y)
+    i = np.add.outer(across * np.arange(across - 1), np.arange(across - 1)).ravel()
+    faces = [np.transpose([i, i + 1, i + across + 1]), np.transpose([i, i + across + 1, i + across])]
+    return Course((Mesh(np.transpose([x, y, z]), np.concatenate(faces), hard(HEAVY_GOING)),))
+
+
+def rack(balls):
+    """A `Game`: the last ball breaks a rack of the others on cloth."""
+    radius = Ball().radius
+    rows = [(row, k) for row in range(balls) for k in range(row + 1)][:balls]
+    places = [(row * sqrt(3) * radius, (2 * k - row) * radius, radius) for row, k in rows]
+    cloth = Material('cloth', Restitution(0.5), 0.0, 0.2, 0.2, 0.01)
+    course = Course((Plane(material=cloth),), tee=(0.0, 500.0), ball=Ball(restitution=0.9, friction=0.05))
+    strike = (balls, (3.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    return Game(f'rack of {balls}', course, (*places, (-0.3, 0.0, radius)), (strike,),
+                ('gravity', 'ball_ball'))
+
+
+def hole():
+    """A `Game`: a drive, a pitch and two putts on `links` until it is holed, in wind."""
+    course = load_course('links')
+    shots = ((club_shot('driver'), 4.0), (lofted(32.0, 28.0, 700.0), 8.0), (Shot((4.0, 0.0, 0.0)), 0.5),
+             (Shot((1.6, 0.0, 0.0)), -21.0))
+    strikes = tuple((0, *turned(shot, degrees)) for shot, degrees in shots)
+    return Game('a whole hole on links', course, (course.tee,), strikes,
+                (*EFFECTS, 'wind', 'water', 'foliage'), (-2.0, -3.0, 0.0))
+
+
+def turned(shot, degrees):
+    """Velocity and spin of a `Shot` turned to the left."""
+    c, s = cos(degrees * pi / 180), sin(degrees * pi / 180)
+    return tuple((c * x - s * y, s * x + c * y, z) for x, y, z in shot)

@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What each effect costs in a scene, and what becomes of the shot without it."""
+from typing import NamedTuple
+
+from .measure import Stage, timed
+from .scenes import Game
+
+NEEDED = {'gravity'}  # without it nothing comes down
+
+
+class EffectRow(NamedTuple):
+    """A scene without one of its effects.
+
+    ``touch_moved``, ``rest_moved`` [m]: how far first touch and rest then lie elsewhere, of several
+    balls the farthest; ``saved``: percentage of the time of a shot that it saves, ``time`` [s] being
+    that with all.
+    """
+
+    scene: str
+    effect: str
+    touch_moved: float
+    rest_moved: float
+    saved: float
+    time: float
+
+
+def droppable(scene):
+    """Names of the effects that a scene can be played without."""
+    return tuple(name for name in scene.effects if name not in NEEDED)
+
+
+def without(scene, effect):
+    """`EffectRow` of a scene that is played at `standard` with and without an effect, in turns."""
+    rest = tuple(name for name in scene.effects if name != effect)
+    whole, less = Stage(scene, 'standard'), Stage(scene, 'standard', rest)
+    touch, moved = whole().errors(less())
+    time, shorter = timed(whole, less)
+    return EffectRow(scene.name, effect, touch, moved, 100.0 * (1.0 - shorter / time), time)
+
+
+def jobs(scenes):
+    """A function for each row; of a `Game` only what no scene before it has: it would compile for minutes."""
+    seen = set()
+    for scene in scenes:
+        for effect in droppable(scene):
+            if not isinstance(scene, Game) or effect not in seen:
+                yield lambda scene=scene, effect=effect: without(scene, effect)
+            seen.add(effect)

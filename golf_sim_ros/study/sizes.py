@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How the time grows with balls, triangles and contacts."""
+from functools import partial
+from typing import NamedTuple
+
+from ..physics import Ball, Course, Material, Plane, Restitution
+from ..physics.vector import ZERO
+from .measure import Stage, timed
+from .scenes import EFFECTS, Game, club_shot, hills, level, lofted
+
+BALLS = (1, 3, 10, 30, 100, 300)
+TRIANGLES = (200, 2_000, 20_000, 100_000)
+CONTACTS = (1, 3, 10, 30, 100)
+APART = 0.5  # m
+
+
+class SizeRow(NamedTuple):
+    """Time [s] of one play with `count` of `what`."""
+
+    what: str
+    count: int
+    time: float
+
+
+def jobs(material):
+    """A function for each row; balls fly over a `material`."""
+    yield from (partial(grown, 'balls', count, volley(count, material)) for count in BALLS)
+    yield from (partial(grown, 'triangles', count, rolling(count)) for count in TRIANGLES)
+    yield from (partial(grown, 'contacts', count, row(count)) for count in CONTACTS)
+
+
+def grown(what, count, game):
+    """`SizeRow` of a `Game` at `standard`."""
+    stage = Stage(game, 'standard')
+    stage()
+    return SizeRow(what, count, *timed(stage))
+
+
+def volley(count, material):
+    """A `Game`: as many 7 irons, hit at once from one long tee; they fly, bounce and roll side by side."""
+    places = tuple((0.0, APART * i) for i in range(count))
+    return Game('volley', level(material), places, tuple((i, *club_shot('7i')) for i in range(count)),
+                (*EFFECTS, 'ball_ball'), together=True)
+
+
+def rolling(triangles):
+    """A `Game`: one ball that bounces and rolls over a mesh until it rests."""
+    shot = lofted(10.0, 40.0, 0.0)
+    return Game('mesh bounce', hills(triangles), ((0.0, 0.0),), ((0, *shot),), EFFECTS)
+
+
+def row(contacts):
+    """A `Game`: a ball hits a row of so many, which touch each other: all impacts are at one instant."""
+    floor = Material('smooth', Restitution(0.0), 0.0, 0.5, 0.5, 0.5)
+    course = Course((Plane(material=floor),), tee=(0.0, 500.0), ball=Ball(restitution=0.9, friction=0.0))
+    width = 2.0 * Ball().radius
+    places = tuple((width * i, 0.0, 0.5 * width) for i in range(contacts))
+    return Game('row', course, (*places, (-0.1, 0.0, 0.5 * width)), ((contacts, (1.5, 0.0, 0.0), ZERO),),
+                ('gravity', 'ball_ball'))

@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tables of the page that tells what accuracy costs."""
+from math import isfinite
+
+import numpy as np
+
+from ..physics import ACCURACY
+
+LEVELS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)  # m
+CENTIMETRE = 0.01  # m
+
+
+def seconds_at(rows, method, level):
+    """Least time [s] of a method's settings that are exact to `level` [m] at first touch, or None."""
+    fit = [row.time for row in rows if row.method == method and row.touch_error <= level]
+    return min(fit, default=None)
+
+
+def equal_error_table(rows):
+    """Markdown table: time at equal error of each integrator, over that of Dormand-Prince."""
+    lines = ['| scene | error at most | Dormand-Prince | RK4 | Euler | scipy RK45 | scipy DOP853 |',
+             '|---|---|---|---|---|---|---|']
+    for scene in dict.fromkeys(row.scene for row in rows if isfinite(row.touch_error)):
+        own = [row for row in rows if row.scene == scene]
+        for level in LEVELS:
+            base = seconds_at(own, 'dormand_prince', level)
+            if base:
+                others = (seconds_at(own, m, level) for m in ('rk4', 'euler', 'scipy RK45', 'scipy DOP853'))
+                cells = ('-' if t is None else f'{t / base:.3g} x' for t in others)
+                lines.append(f'| {scene} | {level:.0e} m | {base * 1e6:.0f} us | ' + ' | '.join(cells) + ' |')
+    return '\n'.join(lines)
+
+
+def exceptions(rows):
+    """Sentences about where Dormand-Prince is not the fastest at equal error."""
+    found = []
+    for scene in dict.fromkeys(row.scene for row in rows if isfinite(row.touch_error)):
+        own = [row for row in rows if row.scene == scene]
+        for level in LEVELS:
+            base = seconds_at(own, 'dormand_prince', level)
+            for other, label in (('rk4', 'RK4'), ('euler', 'Euler')):
+                time = seconds_at(own, other, level)
+                if base and time and time < base:
+                    found.append(f'- {scene}, {level:.0e} m: {label} took {time / base:.2f} of the time.')
+    return '\n'.join(found) or 'There was none in this run.'
+
+
+def full_table(rows):
+    """Markdown table of all rows."""
+    lines = ['| scene | method | setting | first touch off by | rest off by | time of a shot | compiling |',
+             '|---|---|---|---|---|---|---|']
+    for row in rows:
+        errors = (f'{e:.1e} m' if isfinite(e) else '-' for e in (row.touch_error, row.rest_error))
+        lines.append(f'| {row.scene} | {row.method} | {row.setting} | ' + ' | '.join(errors)
+                     + f' | {row.time * 1e6:.1f} us | {row.compiled:.1f} s |')
+    return '\n'.join(lines)
+
+
+def preset_table(rows):
+    """Markdown table of the presets: promise, worst of the study, time."""
+    lines = ['| preset | promises, first touch and rest | worst here | time of a shot | for |',
+             '|---|---|---|---|---|']
+    use = {'sketch': 'watching many shots at once', 'standard': 'playing', 'reference': 'research'}
+    for name, preset in ACCURACY.items():
+        own = [row for row in rows if row.method == 'preset' and row.setting == name]
+        touch, rest = (np.nanmax([getattr(r, e) for r in own]) for e in ('touch_error', 'rest_error'))
+        times = [row.time * 1e6 for row in own]
+        lines.append(f'| {name} | {preset.touch:g} m, {preset.rest:g} m | {touch:.1e} m, {rest:.1e} m '
+                     f'| {min(times):.0f} to {max(times):.0f} us | {use[name]} |')
+    return '\n'.join(lines)
+
+
+def report_costs(rows):
+    """Markdown list: what the report's choices cost in each scene."""
+    lines = []
+    for row in rows:
+        if row.method == 'report_2019':
+            touch = f'first touch {row.touch_error:.2g} m off, ' if isfinite(row.touch_error) else ''
+            lines.append(f'- {row.scene}: {touch}rest {row.rest_error:.2g} m off.')
+    return '\n'.join(lines)
+
+
+def effect_table(rows):
+    """Markdown table: what each effect costs, and how far off the shot ends without it."""
+    lines = ['| scene | without | first touch elsewhere by | rest elsewhere by | time saved |',
+             '|---|---|---|---|---|']
+    for row in rows:
+        moved = (f'{e:.2g} m' if isfinite(e) else '-' for e in (row.touch_moved, row.rest_moved))
+        lines.append(f'| {row.scene} | {row.effect} | ' + ' | '.join(moved) + f' | {row.saved:.0f} % |')
+    return '\n'.join(lines)
+
+
+def dispensable(rows):
+    """Markdown list: by scene, effects without which the ball rests within a centimetre of where it would."""
+    lines = []
+    for scene in dict.fromkeys(row.scene for row in rows):
+        own = [row for row in rows if row.scene == scene and row.rest_moved <= CENTIMETRE]
+        if own:
+            lines.append(f'- {scene}: ' + ', '.join(f'{row.effect} ({row.rest_moved:.1g} m)' for row in own))
+    return '\n'.join(lines)
+
+
+def tick_table(rows):
+    """Markdown table: error over the tick rate, a line a scene and an accuracy."""
+    rates = list(dict.fromkeys(row.rate for row in rows))
+    lines = ['| scene | accuracy | ' + ' | '.join(f'{rate:g} Hz' for rate in rates) + ' |',
+             '|---|---|' + '---|' * len(rates)]
+    for scene, accuracy in dict.fromkeys((row.scene, row.accuracy) for row in rows):
+        own = {row.rate: row.rest_error for row in rows if (row.scene, row.accuracy) == (scene, accuracy)}
+        lines.append(f'| {scene} | {accuracy} | ' + ' | '.join(f'{own[rate]:.2e} m' for rate in rates) + ' |')
+    return '\n'.join(lines)
+
+
+def spread(rows):
+    """How much [m] a preset's error differs at most between tick rates, in one scene."""
+    kept = {}
+    for row in rows:
+        if row.accuracy in ACCURACY:
+            kept.setdefault((row.scene, row.accuracy), []).append(row.rest_error)
+    return max(max(errors) - min(errors) for errors in kept.values())
+
+
+def tick_costs(rows):
+    """Markdown table: share of a core that a simulated second takes at `standard`, by tick rate."""
+    own = [row for row in rows if row.accuracy == 'standard']
+    lines = ['| scene | ticks a second | of a core in real time |', '|---|---|---|']
+    lines += [f'| {row.scene} | {row.rate:g} | {100 * row.time:.3f} % |' for row in own]
+    return '\n'.join(lines)
+
+
+def size_table(rows):
+    """Markdown table: time of one play, and for each of what is counted."""
+    lines = ['| what | how many | time of a play | for each |', '|---|---|---|---|']
+    lines += [f'| {row.what} | {row.count} | {1e6 * row.time:.0f} us | {1e6 * row.time / row.count:.3g} us |'
+              for row in rows]
+    return '\n'.join(lines)

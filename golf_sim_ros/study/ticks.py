@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the error depends on how often the play is looked at, and what looking costs."""
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from ..physics import ACCURACY
+from .measure import Stage, ticked
+from .methods import TRUTH, made
+
+RATES = (10.0, 50.0, 250.0, 1000.0, 4000.0)  # Hz
+STEPPED = 'semi-implicit Euler, a step a tick'
+
+
+class TickRow(NamedTuple):
+    """A scene played tick by tick, at `rate` [Hz] and `accuracy`.
+
+    Errors [m] of first touch and rest; ``time`` [s] that a simulated second takes, from Python; not a
+    number for a step a tick, which is only there to compare.
+    """
+
+    scene: str
+    accuracy: str
+    rate: float
+    touch_error: float
+    rest_error: float
+    time: float
+
+
+def jobs(scenes):
+    """A function for each row."""
+    for scene in scenes:
+        for rate in RATES:
+            for name in ACCURACY:
+                yield partial(by_ticks, scene, name, rate)
+            yield partial(by_steps, scene, rate)
+
+
+def by_ticks(scene, accuracy, rate):
+    """`TickRow` of a preset."""
+    found, time = ticked(scene, accuracy, rate)
+    return TickRow(scene.name, accuracy, rate, *Stage(scene, TRUTH)().errors(found), time)
+
+
+def by_steps(scene, rate):
+    """`TickRow` of an integrator whose step is the tick."""
+    errors = Stage(scene, TRUTH)().errors(Stage(scene, made('euler', 1.0 / rate))())
+    return TickRow(scene.name, STEPPED, rate, *errors, np.nan)
