@@ -2,7 +2,7 @@
 #
 # make play    three shots over ROS 2: a drive, an approach, a putt; play/ keeps the recording and a picture
 # make sim     the simulator and the wind, until Ctrl-C
-# make hard    every hard case with every preset and at three rates: docs/stability.md
+# make hard    every hard case with every preset and at three rates: docs/stability.md; HARD_ARGS='shots' for a part
 # make bench   what is fast and what is not, against baselines of the same run; BENCH_ARGS=--quick for less
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #
@@ -14,6 +14,7 @@ VENV ?= .venv
 DISTRO ?= jazzy
 PYTEST_ARGS ?=
 BENCH_ARGS ?=
+HARD_ARGS ?=
 
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
@@ -30,7 +31,7 @@ test: environment
 	@$(VENV)/bin/python -m pytest -n 2 --dist loadfile $(PYTEST_ARGS)
 
 hard: environment
-	@$(VENV)/bin/python tools/hard.py
+	@$(VENV)/bin/python tools/hard.py $(HARD_ARGS)
 
 bench: environment
 	@$(VENV)/bin/python benchmarks/bench.py $(BENCH_ARGS)

@@ -11,11 +11,12 @@ from pathlib import Path
 import platform
 import subprocess
 
+import scale
 import shots
 import ticks
 
 HISTORY = Path(__file__).parent / 'history.jsonl'
-PARTS = shots, ticks
+PARTS = shots, ticks, scale
 
 
 def main():

@@ -3,8 +3,10 @@
 
 The cases are those of test/physics/hard_cases, which say what is expected; `make test` plays each once.
 After them come those of hard_scenes.py, and random shots at what nothing may pass: so many at each target
-at each rate with `standard` as the argument says (100,000), a tenth with the others.
+at each rate with `standard` as `--shots` says (100,000), a tenth with the others. Each part can be played
+alone, and the page then shows it beside what the others gave last.
 """
+import argparse
 from math import inf
 from pathlib import Path
 import sys
@@ -19,6 +21,7 @@ from hard_scenes import SCENES  # noqa: E402
 from nothing_passes import TARGETS  # noqa: E402
 from test_hard_cases import CASES, play, start  # noqa: E402
 
+BUILD = ROOT / 'build' / 'hard'
 RATES = (50, 250, 1000)  # Hz
 SHOTS = 100_000  # at each target, at each rate, with `standard`
 HEAD = """\
@@ -31,7 +34,6 @@ ended, at the worst of the three rates, in metres and m/s: to be held against `w
 `standard`. A rougher preset may be off by what it promises. *fails* says what did not hold; "as it may":
 nothing exact is expected. The tables of `test/physics/hard_scenes.py` show the figure itself at the worst
 of the rates, beside the range that is expected of it.
-
 """
 
 
@@ -98,7 +100,7 @@ def played(scene, accuracy):
     return f'{worst:.4g}' + ('' if scene.least <= worst <= scene.most else ' *fails*')
 
 
-def scenes():
+def scenes(count):
     """Tables of the cases that a line of YAML does not hold."""
     lines = []
     for title, some in SCENES.items():
@@ -111,13 +113,11 @@ def scenes():
     return lines
 
 
-def main():
-    """Play, and write."""
-    shots = int(sys.argv[1]) if len(sys.argv) > 1 else SHOTS
+def cases(count):
+    """Tables of the cases of `test/physics/hard_cases/`, after a summary of them."""
     lines, failures, spreads = [], dict.fromkeys(ACCURACY, 0), []
     for file in sorted({file for file, _ in CASES}):
-        path = ROOT / 'build' / f'hard_{file.name}'
-        path.parent.mkdir(exist_ok=True)
+        path = BUILD / file.name
         path.write_text(yaml.safe_dump({'format': 1, **yaml.safe_load(file.read_text())['course']}))
         course = load_course(path)
         lines += ['', f'## {file.stem}', '', '| case | within | ' + ' | '.join(ACCURACY) + ' |',
@@ -131,14 +131,27 @@ def main():
                 cells.append(cell(worst, failure, case['ends']))
             within = case['ends'].get('within', '')
             lines.append(f'| {case["name"]} | {within} | ' + ' | '.join(cells) + ' |')
-        print(file.stem, flush=True)
+        print(f'{file.stem}: failures so far {failures}', flush=True)
     spread, name, accuracy = max(item for item in spreads if item[0] < inf)
-    summary = [f'{len(CASES)} cases. Failures: '
-               + ', '.join(f'{accuracy} {count}' for accuracy, count in failures.items()) + '.',
-               f'Greatest difference of an end between the rates: {spread:.1e} m ({name}, {accuracy}).']
-    lines = [*summary, *scenes(), *passed(shots), *lines]
-    (ROOT / 'docs' / 'stability.md').write_text(HEAD + '\n'.join(lines) + '\n')
-    print('\n'.join(summary))
+    return ['', '## Cases in lines of YAML', '', f'{len(CASES)} cases. Failures: '
+            + ', '.join(f'{accuracy} {count}' for accuracy, count in failures.items()) + '.',
+            f'Greatest difference of an end between the rates: {spread:.1e} m ({name}, {accuracy}).', *lines]
+
+
+PARTS = {'scenes': scenes, 'shots': passed, 'cases': cases}
+
+
+def main():
+    """Play the parts that are asked for, and write the page from what all of them gave last."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('parts', nargs='*', help=f'some of {", ".join(PARTS)}; all, if left out')
+    parser.add_argument('--shots', type=int, default=SHOTS)
+    given = parser.parse_args()
+    BUILD.mkdir(parents=True, exist_ok=True)
+    for part in given.parts or PARTS:
+        (BUILD / f'{part}.md').write_text('\n'.join(PARTS[part](given.shots)) + '\n')
+        done = [BUILD / f'{part}.md' for part in PARTS if (BUILD / f'{part}.md').exists()]
+        (ROOT / 'docs' / 'stability.md').write_text(HEAD + ''.join(path.read_text() for path in done))
 
 
 if __name__ == '__main__':

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Several balls: impacts of two, of many at one instant, and balls that lean on each other."""
 from itertools import permutations
+import json
 
 import numpy as np
 import pytest
 
 from golf_sim_ros.physics import Ball, Course, Material, Patch, Phase, Plane, Restitution, World
+from hard_scenes import IN_A_BOWL, poured
 
 RADIUS = Ball().radius
 IDEAL = Material('ideal', Restitution(1.0))
@@ -227,3 +229,16 @@ def test_balls_poured_into_a_box_come_to_rest_within_20_s_without_overlap_and_st
     assert np.abs(places[:, :2]).max() < 0.5 * side - RADIUS + 1e-4 and places[:, 2].min() > RADIUS - 1e-4
     world.advance(60.0)
     assert np.array_equal(motion(world, world.names)[0], places)
+
+
+def test_a_pile_goes_on_from_its_state_to_the_bit():
+    worlds = [poured(IN_A_BOWL, 20, 'standard') for _ in range(2)]
+    worlds[0].advance(0.6)
+    worlds[1].restore(json.loads(json.dumps(worlds[0].state())))
+    leaning = [ball['piled'] for ball in worlds[0].state()['balls'].values()]
+    assert sum(map(bool, leaning)) > 10
+    for _ in range(20):
+        for world in worlds:
+            world.advance(0.1)
+        assert np.array_equal(motion(worlds[0], worlds[0].names), motion(worlds[1], worlds[1].names))
+    assert not worlds[0].moving
