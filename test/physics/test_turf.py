@@ -6,7 +6,7 @@ from pathlib import Path
 
 from driving_range import launched, level
 from golf_sim_ros.materials import shipped
-from golf_sim_ros.physics import PENNER, Material, World, simulate_many
+from golf_sim_ros.physics import PENNER, Course, Material, Phase, Plane, World, simulate_many
 import numpy as np
 import pytest
 
@@ -103,3 +103,30 @@ def test_neighbouring_impacts_end_nearly_the_same(name):
         near = 1e-7 * rng.normal(size=6)
         moved = after(velocity + near[:3], spin + near[3:] / radius) - after(velocity, spin)
         assert np.abs(moved).max() < 100 * np.abs(near).max()
+
+
+def putt_ends(speeds, headings, fall):
+    """Ends (n, 2) of balls released rolling at `speeds` and `headings` on a green that falls by `fall`."""
+    green = Material(name='green', **shipped()[0]['green'])
+    course = Course((Plane(normal=(0.0, -fall, 1.0), material=green),))
+    world, ends = World(course), []
+    up = np.array((0.0, -fall, 1.0)) / np.hypot(fall, 1.0)
+    for speed, heading in zip(speeds, headings):
+        ahead = np.cross((-np.sin(heading), np.cos(heading), 0.0), up)
+        velocity = speed * ahead / np.linalg.norm(ahead)
+        world.place('ball', course.ball.radius * up, velocity, np.cross(up, velocity) / course.ball.radius)
+        world.advance(60.0)
+        assert world['ball'].phase == Phase.REST
+        ends.append(world['ball'].position[:2])
+    return np.array(ends)
+
+
+@pytest.mark.parametrize('fall', (0.0, 0.01, 0.03))
+def test_where_a_putt_ends_has_no_step_and_no_kink(fall):
+    speeds, headings = map(np.ravel, np.meshgrid(np.linspace(0.3, 3.0, 5), np.linspace(-3.0, 3.0, 7)))
+    for size in (1e-2, 1e-3):
+        for more, turn in ((size, 0.0), (0.0, size), (size, size)):
+            ahead, here, behind = (putt_ends(speeds * (1 + k * more), headings + k * turn, fall)
+                                   for k in (1, 0, -1))
+            # Second differences of a smooth function go with the step's square.
+            assert np.abs(ahead - 2 * here + behind).max() < 60 * size * size
