@@ -5,7 +5,8 @@ from math import isfinite
 
 from driving_range import HARD, TURF, level
 from golf_sim_ros.physics import ACCURACY, EFFECTS, Air, Shot, World, register_effect, simulate
-from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, pull
+from golf_sim_ros.physics._compile import entry
+from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, laws, pull
 from golf_sim_ros.physics.model import build
 import numpy as np
 from other_process import run
@@ -64,7 +65,7 @@ def told():
 
 def findings():
     """All of that, by name."""
-    return {name: {'answers': answers(name), 'difference': difference(name),
+    return {name: {'answers': answers(name), 'said': said(name), 'difference': difference(name),
                    'ends': ends_without_and_with(name)} for name in EFFECTS}
 
 
@@ -75,6 +76,26 @@ def test_an_effect_is_finite_and_repeatable(name, told):
     assert all(isfinite(number) for answer in once for vector in answer for number in vector)
     for *_, normal in once:
         assert np.linalg.norm(normal) == pytest.approx(1.0, abs=1e-12)
+
+
+@entry
+def asked(effect, flow, force):
+    """What an effect says of a flying ball: acceleration, spin rate, longest step."""
+    return (laws.acceleration(effect, flow), laws.spin_rate(effect, flow),
+            laws.longest_step(effect, flow, force))
+
+
+def said(name):
+    """All that of one ball."""
+    velocity, spin = (40.0, 3.0, 14.0), (20.0, -280.0, 10.0)
+    flow = laws.Flow(velocity, float(np.linalg.norm(velocity)), spin, (1.0, 2.0, 30.0), velocity)
+    return asked(EFFECTS[name].record(SCENES['wind']), flow, (-8.0, 0.5, -6.0))
+
+
+@effects
+def test_an_effect_says_the_same_compiled(name, told):
+    for compiled, plain in zip(said(name), told[0][name]['said']):
+        assert compiled == pytest.approx(plain, rel=1e-12)
 
 
 def answers(name):

@@ -30,7 +30,6 @@ def drag_and_lift(push, flow, ratio, drag, lift):
     return add(braking, scale(push * lift * fading * flow.speed * flow.speed / size, across))
 
 
-@kernel
 def turning_about(effect, flow, force):
     """Longest step [s] that can't overlook where drag or lift by a published law turns about."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
