@@ -2,25 +2,29 @@
 """A drive, an approach and a putt over ROS 2, each hit with `shoot`, recorded and drawn: ``make play``."""
 
 import json
-from math import sqrt
 import os
 from pathlib import Path
 import shutil
 import subprocess
 import sys
 
+import numpy as np
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 
+from golf_sim_ros.course import load_course
 from golf_sim_ros.environment import complete_environment
-from golf_sim_ros.materials import materials, shipped
+from golf_sim_ros.physics import World
 from golf_sim_ros.tools.clubs import CLUBS
+from golf_sim_ros.tools.launch_monitor import Launch, velocity_and_spin
 from running import BIN, Failed, nodes, Spectator
 
-GRAVITY = 9.80665       # m/s2
 LONGEST = 360.0         # s: a shot lasts 300 s at most
 LEFT = Path(__file__).resolve().parent.parent / 'play'    # what is left of the play
 BAG, PICTURE = LEFT / 'bag', LEFT / 'play.png'
+COURSE = 'golf_without_friends'    # the sim's default
+HARDEST = 20.0          # m/s: of a putt
+ROUNDS = 12             # of halving what is tried
 BEYOND = 0.3            # m: a putt that dies at the hole falls short of it half of the time
 
 
@@ -86,27 +90,45 @@ def drive(_):
 
 
 def approach(last):
-    """Name and arguments of a shot that ends at the hole: a whole one, or part of a wedge.
-
-    What a slower wedge loses in carry it gains in roll: on a level green its total is that of the whole
-    shot times the power, within a tenth from 0.3 to 1.
-    """
-    distance = last['to_hole']
+    """Name and arguments of a shot that ends at the hole: a whole one, or part of a wedge."""
     reach = {name: club.carry for name, club in CLUBS.items() if club.carry}
-    name = min(reach, key=lambda club: abs(reach[club] - distance))
-    return f'approach with the {name}', [name, '--power', f'{min(1.0, distance / reach[name]):.3f}']
+    name = min(reach, key=lambda club: abs(reach[club] - last['to_hole']))
+    full = CLUBS[name].launch
+
+    def part(power):
+        return full._replace(speed=power * full.speed, backspin=power * full.backspin)
+    power = enough(last, part, 1.0)
+    return f'approach with the {name}', [name, '--power', f'{power:.3f}']
 
 
 def putt(last):
-    """Name and arguments of a shot along the ground that rolls to the hole, on ground like that it lies on.
-
-    A ball struck at v without spin slides for 12 v^2 / (49 mu g) until it rolls at 5/7 v, and rolls on
-    for (5/7 v)^2 / (2 rho g).
-    """
-    ground = materials({}, shipped()[0])[last['lie']]
-    way = 12 / 49 / ground.dynamic_friction + 25 / 98 / ground.rolling_resistance
-    speed = sqrt((last['to_hole'] + BEYOND) * GRAVITY / way)
+    """Name and arguments of a shot along the ground that rolls to the hole."""
+    speed = enough(last, Launch, HARDEST)
     return 'putt', ['putter', '--units', 'si', '--speed', f'{speed:.3f}']
+
+
+def enough(last, launch, most):
+    """Least number, up to `most`, for which `launch` of it, aimed at the hole, gets there in still air.
+
+    Tried on the course without its hole, from where the `last` shot ended.
+    """
+    course = load_course(COURSE)
+    hole, place = np.array(course.hole), np.array(last['position'][:2])
+    way = hole - place
+    distance = np.hypot(*way)
+    low, high = 0.0, most
+    for _ in range(ROUNDS):
+        tried = 0.5 * (low + high)
+        world = World(course._replace(hole=None))
+        world.place('ball', tuple(place))
+        world.strike('ball', *velocity_and_spin(launch(tried), np.arctan2(way[1], way[0])))
+        while world.moving:
+            world.advance(1.0)
+        if np.dot(world['ball'].position[:2] - place, way) < (distance + BEYOND) * distance:
+            low = tried
+        else:
+            high = tried
+    return high
 
 
 def hit(title, arguments):
