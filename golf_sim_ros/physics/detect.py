@@ -33,6 +33,7 @@ RISING = 1e-12  # m/s: more than the rounding error of a rate, and less than a n
 NEVER = 1e300
 MOST_STEPS = 200
 CROWD = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
+BARELY = 1e-7  # s: a ball that leaves an edge sooner has left it
 SHORT = 4.0  # radii: a stretch with a box no longer than this is not worth halving
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, CAUGHT = range(5)
 
@@ -230,6 +231,11 @@ def first_in_box(ground, ball, radius, begin, end, low, high, on):
                 touches = dot(normal, vector(ball['normal'])) <= 1.0 - 1e-9
                 if not touches:
                     time = end
+            if touches and on == ON_EDGE and time == 0.0:
+                lasts = edge_lasts(ground, part, ball, best)
+                if lasts > 0.0:
+                    time = lasts
+                    touches = False
             if time < best or touches and not hit:
                 best = time
                 who = part
@@ -271,6 +277,19 @@ def same_edge(ground, part, ball, until):
         if abs(distance - supported) > SAME or dot(normal, upward) < 1.0 - 1e-12:
             return False
     return True
+
+
+@kernel
+def edge_lasts(ground, part, ball, until):
+    """Time, `until` at most, for which the supporting edge is that of `part` too; 0 if not at all.
+
+    Two faces share the edge that the ball follows: one is no obstacle before the ball leaves for it.
+    """
+    while until > BARELY:
+        if same_edge(ground, part, ball, until):
+            return until
+        until *= 0.5
+    return 0.0
 
 
 @shared

@@ -242,3 +242,10 @@ def test_a_pile_goes_on_from_its_state_to_the_bit():
             world.advance(0.1)
         assert np.array_equal(motion(worlds[0], worlds[0].names), motion(worlds[1], worlds[1].names))
     assert not worlds[0].moving
+
+
+def test_a_rough_preset_does_not_hold_a_ball_on_an_edge_for_ever():
+    # Two faces shared the edge that it followed, and each was an obstacle to a ball on the other.
+    world = poured(IN_A_BOWL, 20, 'sketch')
+    world.advance(10.0)
+    assert not world.moving
