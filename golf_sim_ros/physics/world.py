@@ -361,7 +361,8 @@ class World:
         KeyError, TypeError, ValueError
             It is no state of such a world.
         """
-        self.accuracy = state['accuracy']
+        if state['accuracy'] != self.accuracy:
+            self.accuracy = state['accuracy']
         self.set_wind(state['wind'])
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []

@@ -12,6 +12,7 @@ BALLS = (1, 3, 10, 30, 100, 300)
 TRIANGLES = (200, 2_000, 20_000, 100_000)
 CONTACTS = (1, 3, 10, 30, 100)
 APART = 0.5  # m
+AWAY = (0.0, -1000.0)  # m: where balls are until they are placed
 
 
 class SizeRow(NamedTuple):
@@ -39,7 +40,7 @@ def grown(what, count, game):
 def volley(count, material):
     """A `Game`: as many 7 irons, hit at once from one long tee; they fly, bounce and roll side by side."""
     places = tuple((0.0, APART * i) for i in range(count))
-    return Game('volley', level(material), places, tuple((i, *club_shot('7i')) for i in range(count)),
+    return Game('volley', level(material)._replace(tee=AWAY), places, tuple((i, *club_shot('7i')) for i in range(count)),
                 (*EFFECTS, 'ball_ball'), together=True)
 
 
@@ -52,7 +53,7 @@ def rolling(triangles):
 def row(contacts):
     """A `Game`: a ball hits a row of so many, which touch each other: all impacts are at one instant."""
     floor = Material('smooth', Restitution(0.0), 0.0, 0.5, 0.5, 0.5)
-    course = Course((Plane(material=floor),), tee=(0.0, 500.0), ball=Ball(restitution=0.9, friction=0.0))
+    course = Course((Plane(material=floor),), tee=AWAY, ball=Ball(restitution=0.9, friction=0.0))
     width = 2.0 * Ball().radius
     places = tuple((width * i, 0.0, 0.5 * width) for i in range(contacts))
     return Game('row', course, (*places, (-0.1, 0.0, 0.5 * width)), ((contacts, (1.5, 0.0, 0.0), ZERO),),
