@@ -59,6 +59,7 @@ setup(
         'mesh': ['trimesh'],
         'bag': ['rosbags>=0.10'],
         'plot': ['matplotlib', 'rosbags>=0.10'],
+        'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10',
                  'trimesh'],

@@ -11,12 +11,15 @@ from pathlib import Path
 import platform
 import subprocess
 
+import engines
+import node
+import off
 import scale
 import shots
 import ticks
 
 HISTORY = Path(__file__).parent / 'history.jsonl'
-PARTS = shots, ticks, scale
+PARTS = shots, ticks, scale, node, engines, off
 
 
 def main():

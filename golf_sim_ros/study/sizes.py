@@ -40,7 +40,8 @@ def grown(what, count, game):
 def volley(count, material):
     """A `Game`: as many 7 irons, hit at once from one long tee; they fly, bounce and roll side by side."""
     places = tuple((0.0, APART * i) for i in range(count))
-    return Game('volley', level(material)._replace(tee=AWAY), places, tuple((i, *club_shot('7i')) for i in range(count)),
+    strikes = tuple((i, *club_shot('7i')) for i in range(count))
+    return Game('volley', level(material)._replace(tee=AWAY), places, strikes,
                 (*EFFECTS, 'ball_ball'), together=True)
 
 

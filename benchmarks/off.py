@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What an effect costs that is off: drives, against a build of the package without the effect's file."""
+import ast
+from contextlib import ExitStack, contextmanager
+import os
+from pathlib import Path
+import shutil
+from statistics import median
+import subprocess
+import sys
+import tempfile
+
+import golf_sim_ros
+from golf_sim_ros.physics import EFFECTS
+from timing import Row
+
+PACKAGE = Path(golf_sim_ros.__file__).parent
+ROUNDS = 60
+ALWAYS = ('gravity', 'drag', 'magnus', 'spin_decay', 'turf')  # of a drive in still air
+
+
+def rows(quick):
+    """`Row` of each automatic effect, and of all others together; quick: of one."""
+    others = [name for name, effect in EFFECTS.items() if effect.instead_of]
+    automatic = [name for name in EFFECTS if name not in others]
+    for names in [['wind']] if quick else [*([name] for name in automatic), others]:
+        effects = ','.join(e for e in ALWAYS if e not in names) if names[0] in ALWAYS else 'auto'
+        yield row(names, effects)
+
+
+def row(names, effects):
+    """`Row`: the share of the time that files of effects cost which are off."""
+    with tempfile.TemporaryDirectory() as folder, ExitStack() as open_builds:
+        shutil.copytree(PACKAGE, Path(folder, 'golf_sim_ros'), ignore=shutil.ignore_patterns('__pycache__'))
+        for name in names:
+            take_out(name, Path(folder, 'golf_sim_ros'))
+        whole = open_builds.enter_context(build(PACKAGE.parent, effects, folder))
+        less = open_builds.enter_context(build(folder, effects, folder))
+        codes = [process.stdout.readline() for process in (whole, less)]
+        pairs = [(time(whole), time(less)) for _ in range(ROUNDS)]
+    cost = 100.0 * (median(mine / theirs for mine, theirs in pairs) - 1.0)
+    title = names[0] if len(names) == 1 else f'{len(names)} laws asked for by name'
+    return Row(f'a drive with {title} off, over a build without the file', cost, '% more', most=2.0,
+               times=tuple(map(median, zip(*pairs))),
+               note='the same machine code' if codes[0] == codes[1] else 'other machine code')
+
+
+@contextmanager
+def build(folder, effects, cache):
+    """A process that plays with the package in `folder`."""
+    command = [sys.executable, str(Path(__file__).with_name('build.py')), str(folder), effects]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
+                          env={**os.environ, 'NUMBA_CACHE_DIR': str(cache)}) as process:
+        yield process
+        process.stdin.close()
+
+
+def time(process):
+    """Time [s] that a build takes to play once more."""
+    process.stdin.write('\n')
+    process.stdin.flush()
+    return float(process.stdout.readline())
+
+
+def take_out(name, package):
+    """Take an effect out of a `package`: its file, or what makes it one where others import from the file."""
+    path = package / 'physics' / 'effects' / f'{name}.py'
+    sources = [source.read_text() for source in package.rglob('*.py') if source != path]
+    if not any(f'{name} import' in source for source in sources):
+        path.unlink()
+        return
+    tree = ast.parse(path.read_text())
+    tree.body = [node for node in tree.body if not makes_effect(node)]
+    path.write_text(ast.unparse(tree))
+
+
+def makes_effect(node):
+    """Whether a piece of a file makes it an effect: `record`, or the body of a law."""
+    return isinstance(node, ast.FunctionDef) and (
+        node.name == 'record' or any('laws.' in ast.unparse(d) for d in node.decorator_list))
