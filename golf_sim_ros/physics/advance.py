@@ -176,6 +176,8 @@ def look_out(balls, i, radius, now, crowd):
             ball['ending'] = MEETING if hit else STEP
             ball['target'] = other
             crowd.ends[i] = time
+    elif ball['phase'] == REST:
+        others.stand_in_the_way(crowd, balls, i, radius, now)
 
 
 @kernel

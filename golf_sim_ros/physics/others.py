@@ -47,6 +47,11 @@ def meeting(crowd, balls, i, radius, now):
 
 
 @generic
+def stand_in_the_way(crowd, balls, i, radius, now):
+    """Let balls that move end their pieces where they meet ball `i`, which rests from now on."""
+
+
+@generic
 def gather_balls(crowd, land, balls, i, now):
     """Add contacts of member `i` with other balls; they become members."""
 

@@ -4,8 +4,8 @@ from . import others, path
 from ._compile import kernel, shared
 from .crowd import Crowd, next_node
 from .detect import MOST_STEPS, PILE_NEAR, TANGENTIAL, TOUCH, box, safe_advance
-from .state import HOLED, PILED, REST, moves
-from .vector import ZERO, dot, length, sub, unit, vector
+from .state import HOLED, MEETING, PILED, REST, STEP, moves
+from .vector import ZERO, add, dot, length, sub, unit, vector
 
 UP = (0.0, 0.0, 1.0)
 STEADY = 0.02  # m/s of approach: so much gravity gives in a step of a pile
@@ -93,6 +93,37 @@ def stays_in_reach(ball):
 @others.meeting.register(Crowd)
 def _meeting(crowd, balls, i, radius, now):
     return first_meeting(crowd, balls, i, radius, now)
+
+
+@others.stand_in_the_way.register(Crowd)
+def _stand_in_the_way(crowd, balls, i, radius, now):
+    end_at(crowd, balls, i, radius, now)
+
+
+@shared
+def end_at(crowd, balls, i, radius, now):
+    """End pieces that others were laid through ball `i`, which rests now. Writes end, ending, target, ends.
+
+    They were laid while it still moved, and looked no further than to the end of its piece.
+    """
+    ball = balls[i]
+    place = vector(ball['position'])
+    reach = (radius, radius, radius)
+    low = sub(place, reach)
+    high = add(place, reach)
+    at = next_node(crowd, 0, low, high)
+    while at >= 0:
+        j = crowd.nodes[at]['ball']
+        other = balls[j]
+        if moves(other['phase']) and other['end'] > now and not (other['piled']
+                                                                 and is_held(other, ball, radius, now)):
+            time, touches = first_touch_of(other, ball, radius, now, other['end'])
+            if touches or time < other['end']:
+                other['end'] = time
+                other['ending'] = MEETING if touches else STEP
+                other['target'] = i
+                crowd.ends[j] = time
+        at = next_node(crowd, at + 1, low, high)
 
 
 @shared

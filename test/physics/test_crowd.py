@@ -154,6 +154,18 @@ def test_a_flying_ball_hits_another_in_the_air_and_both_are_told():
     assert sorted(event.ball for event in events if hasattr(event, 'status')) == ['blue', 'red']
 
 
+@pytest.mark.parametrize('ahead', [0.05, 0.1])
+def test_a_ball_that_stops_in_the_way_of_one_that_rolls_is_hit(ahead):
+    world = table(CLOTH, ('first', 'second'), 0.9)
+    world.place('first', (0.0, 0.0, RADIUS), **rolling(ahead))
+    world.place('second', (-2.0, 0.0, RADIUS), **rolling(1.5))
+    bumps, deepest = 0, -1.0
+    for _ in range(1500):
+        bumps += sum(event.kind == 'ball' for event in world.advance(0.01))
+        deepest = max(deepest, overlaps(world))
+    assert bumps and deepest < 1e-6 and not world.moving
+
+
 def test_a_place_that_another_ball_has_is_refused():
     world = table(FLOOR, ('red', 'blue'))
     world.place('blue', (0.0, 0.0))
