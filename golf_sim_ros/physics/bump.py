@@ -86,8 +86,8 @@ def remember(balls, crowd):
 def tell(balls, now, row, crowd, log):
     """Log an impact of two balls."""
     ball = balls[row['a']]
-    event = log.events[log.count[0]]
-    log.count[0] += 1
+    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
+    log.count[0] = min(log.count[0] + 1, len(log.events))
     event['time'] = now
     event['ball'] = row['a']
     event['kind'] = BUMP

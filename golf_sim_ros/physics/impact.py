@@ -86,8 +86,8 @@ def bounce(land, ball, normal):
 @kernel
 def tell(land, ball, number, now, normal, before, log):
     """Log an impact."""
-    event = log.events[log.count[0]]
-    log.count[0] += 1
+    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
+    log.count[0] = min(log.count[0] + 1, len(log.events))
     event['time'] = now
     event['ball'] = number
     event['kind'] = BOUNCE

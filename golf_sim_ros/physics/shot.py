@@ -63,8 +63,8 @@ def end_shot(ball, number, now, kind, log):
         put(ball['velocity'], ZERO)
         put(ball['spin'], ZERO)
     ball['playing'] = 0
-    event = log.events[log.count[0]]
-    log.count[0] += 1
+    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
+    log.count[0] = min(log.count[0] + 1, len(log.events))
     event['time'] = now
     event['ball'] = number
     event['kind'] = kind
@@ -94,8 +94,8 @@ def keep_end(ball, end):
 @kernel
 def tell_gone(ball, number, now, log):
     """Log that the ball has gone out of bounds."""
-    event = log.events[log.count[0]]
-    log.count[0] += 1
+    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
+    log.count[0] = min(log.count[0] + 1, len(log.events))
     event['time'] = now
     event['ball'] = number
     event['kind'] = GONE

@@ -71,8 +71,8 @@ def skips(land, ball, velocity, heavy):
 @kernel
 def tell(land, ball, number, now, before, log):
     """Log that the ball met water."""
-    event = log.events[log.count[0]]
-    log.count[0] += 1
+    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
+    log.count[0] = min(log.count[0] + 1, len(log.events))
     event['time'] = now
     event['ball'] = number
     event['kind'] = WET

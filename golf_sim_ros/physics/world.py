@@ -69,7 +69,7 @@ class World:
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
         self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
         self._materials = model_.material_names(course)
-        self._log, self._events, self._now, self._shots = new_log(), [], 0.0, 0
+        self._log, self._events, self._now, self._shots = new_log(64 + 16 * len(self.names)), [], 0.0, 0
         self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
         self._rebuild()
