@@ -82,7 +82,8 @@ def passed(count):
     lines = ['', '## Nothing is passed', '',
              f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within',
              '2 m, every fourth grazing), at each of the three rates, with `standard`, of',
-             f'{count // 10:,} with `sketch` and of {count // 100:,} with `reference`, so many passed through.',
+             f'{count // 10:,} with `sketch` and of {count // 100:,} with `reference`, so many',
+             'passed through.',
              'In brackets: how deep any ball was found in it, at any tick [m]. Expected: 0, and no deeper',
              'than 2e-6 m and five times what a preset lets a path be off.', '',
              '| target | ' + ' | '.join(ACCURACY) + ' |', '|---|' + '---|' * len(ACCURACY)]
