@@ -10,7 +10,7 @@ from .scenes import EFFECTS, Game, club_shot, hills, level, lofted
 
 BALLS = (1, 3, 10, 30, 100, 300)
 TRIANGLES = (200, 2_000, 20_000, 100_000)
-CONTACTS = (1, 3, 10, 30, 100)
+CONTACTS = (1, 3, 10, 30, 60)
 APART = 0.5  # m
 AWAY = (0.0, -1000.0)  # m: where balls are until they are placed
 
