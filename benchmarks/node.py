@@ -19,7 +19,7 @@ tee: [0, 0]
 ground:
   - {shape: plane, point: [0, 0, 0], normal: [0, 0, 1], material: sand}
 """  # a ball ends where it lands, so that one that is struck again at once is always in flight
-UP = (10.0, 0.0, 60.0)  # m/s
+AHEAD, UP, HIGHER = 10.0, 40.0, 30.0  # m/s: some of many balls higher than others, so that they land apart
 
 
 def rows(quick):
@@ -71,7 +71,7 @@ def watched(sim, balls, seconds):
 
     def strike(ball):
         shot = Twist()
-        shot.linear.x, shot.linear.y, shot.linear.z = UP
+        shot.linear.x, shot.linear.z = AHEAD, UP + HIGHER * balls.index(ball) / len(balls)
         clubs[ball].publish(shot)
 
     def note(message):
