@@ -48,10 +48,7 @@ def installed():
 
 def pours(engines, count):
     """Rows: balls poured into a box."""
-    world = World(Course(box(), tee=(0.0, 500.0), ball=Ball(restitution=RESTITUTION, friction=FRICTION),
-                         effects=('gravity', 'ball_ball')), count)
-    for name, place in zip(world.names, heap(count)):
-        world.place(name, place, velocity=(0.0, 0.0, 0.0))
+    world = poured(count)
     start = world.state()
     world.advance(POUR)
     world.restore(start)
@@ -85,6 +82,15 @@ def rolls(engines):
         time = clocked(lambda: scene.advance(round(ROLL / STEP)))
         yield Row(f'bouncing and rolling on {TRIANGLES:,} triangles, over {name}', time / ours, least=10.0,
                   times=(ours, time))
+
+
+def poured(count):
+    """`World` of balls that are about to fall into a box."""
+    world = World(Course(box(), tee=(0.0, 500.0), ball=Ball(restitution=RESTITUTION, friction=FRICTION),
+                         effects=('gravity', 'ball_ball')), count)
+    for name, place in zip(world.names, heap(count)):
+        world.place(name, place, velocity=(0.0, 0.0, 0.0))
+    return world
 
 
 def box():

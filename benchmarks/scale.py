@@ -3,27 +3,15 @@
 from math import cos, log, sin
 from statistics import median
 
+from engines import poured, STEP
+from golf_sim_ros.physics import Course, Material, Plane, Restitution, World
+from golf_sim_ros.study.scenes import hills
 import numpy as np
-
-from golf_sim_ros.physics import Ball, Course, Material, Mesh, Patch, Plane, Restitution, World
-from timing import Row, clocked
+from timing import clocked, Row
 
 HEADINGS = 12
-HALF = 100.0  # m: half of a terrain's side
 GRASS = Material('grass', Restitution(0.5), 0.0, 0.5, 0.4, 0.1, 0.003)
-FLOOR = Material('floor', Restitution(0.5), 0.0, 0.4, 0.3, 0.02, 0.001)
 FAR = (0.0, 500.0)  # where balls wait
-
-
-def terrain(count):
-    """World of a wavy mesh of about `count` triangles."""
-    rows = round((count / 2) ** 0.5) + 1
-    side = np.linspace(-HALF, HALF, rows)
-    x, y = (a.ravel() for a in np.meshgrid(side, side, indexing='ij'))
-    first = np.arange(rows * rows).reshape(rows, rows)[:-1, :-1].ravel()
-    faces = np.r_[np.c_[first, first + rows, first + 1], np.c_[first + 1, first + rows, first + rows + 1]]
-    mesh = Mesh(np.c_[x, y, 0.5 * np.sin(0.1 * x) * np.sin(0.07 * y)], faces, GRASS)
-    return World(Course((mesh,), effects=('gravity',)))
 
 
 def hops(world):
@@ -45,23 +33,9 @@ def scattered(count):
     return world
 
 
-def poured(count):
-    """World of balls that are about to fall into a box."""
-    side, height = 0.6, 4.0
-    walls = [Patch((0.5 * side * x, 0.5 * side * y, 0.5 * height), (-x, -y, 0), 0.0,
-                   side + 0.1, height, FLOOR) for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]
-    course = Course((Plane(material=FLOOR), *walls), tee=FAR, ball=Ball(restitution=0.5, friction=0.2),
-                    effects=('gravity', 'ball_ball'))
-    world, random = World(course, count), np.random.default_rng(count)
-    for k, name in enumerate(world.names):
-        place = 0.06 * np.array((k % 9 - 4, k // 9 % 9 - 4, k // 81)) + (0.0, 0.0, 0.1)
-        world.place(name, place + (*random.uniform(-5e-3, 5e-3, 2), 0.0), velocity=(0.0, 0.0, 0.0))
-    return world
-
-
 def rows(quick):
     """`Row` of each."""
-    worlds = [terrain(count) for count in (1000, 10_000, 100_000)]
+    worlds = [World(hills(count), effects=('gravity',)) for count in (1000, 10_000, 100_000)]
     times = [median(clocked(lambda: hops(world)) for _ in range(8)) / HEADINGS for world in worlds]
     yield Row('3 s of a ball on 100,000 triangles over those on 1,000', times[2] / times[0], most=2.0,
               times=tuple(times))
@@ -76,5 +50,5 @@ def rows(quick):
     if quick:
         return
     world = poured(1000)
-    time = clocked(lambda: [world.advance(1 / 250) for _ in range(2500)])
+    time = clocked(lambda: [world.advance(STEP) for _ in range(2500)])
     yield Row('10 s of 1,000 balls poured into a box at 250 Hz', 10.0 / time, least=1.0, times=(time,))

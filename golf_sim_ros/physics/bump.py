@@ -7,7 +7,7 @@ from .crowd import CONTACTS, MEMBERS, Crowd
 from .motion import STILL
 from .pair import gap_between
 from .pile import leave, pile_up
-from .state import BUMP, FLIGHT, REST, SLIDE, moves
+from .state import BUMP, FLIGHT, REST, SLIDE, moves, next_event
 from .vector import dot, length, put, vector
 
 STALL = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
@@ -61,7 +61,7 @@ def collide(land, balls, now, crowd, log):
 def _tell_bumps(crowd, balls, now, log):
     for n in range(crowd.count[CONTACTS]):
         row = crowd.contacts[n]
-        if row['b'] >= 0 and row['approach'] > WORTH_TELLING and log.count[0] < len(log.events):
+        if row['b'] >= 0 and row['approach'] > WORTH_TELLING:
             tell(balls, now, row, crowd, log)
 
 
@@ -86,8 +86,7 @@ def remember(balls, crowd):
 def tell(balls, now, row, crowd, log):
     """Log an impact of two balls."""
     ball = balls[row['a']]
-    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
-    log.count[0] = min(log.count[0] + 1, len(log.events))
+    event = next_event(log)
     event['time'] = now
     event['ball'] = row['a']
     event['kind'] = BUMP

@@ -12,7 +12,7 @@ from . import braked
 from .effects import pull
 from .ground import surface
 from .impulse import slip
-from .motion import STILL, brake, material_under
+from .motion import STILL, between_bounces, brake, material_under
 from .path import lay, position
 from .state import BALL_STOPS, REST, ROLL, SLIDE, SLIP_STOPS, STEP
 from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, unit, vector
@@ -109,8 +109,7 @@ def flat_piece(land, ball, now):
     tail = in_tail(ball, now)
     load = press
     if tail:
-        load *= ball['tail_press']
-        downhill = add(downhill, vector(ball['tail_air']))
+        load, downhill = between_bounces(ball, normal, press, downhill)
     k = land.ball.inertia
     v = vector(ball['velocity'])
     drift = scale(1.0 / (1.0 + k), downhill)

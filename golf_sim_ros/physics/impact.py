@@ -13,7 +13,7 @@ from .material import lasting_restitution, restitution
 from .motion import STILL
 from .pile import leave
 from .shot import note_landing
-from .state import BOUNCE, FLIGHT, SLIDE
+from .state import BOUNCE, FLIGHT, SLIDE, next_event
 from .vector import ZERO, along, dot, length, put, scale, sub, vector
 
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
@@ -86,8 +86,7 @@ def bounce(land, ball, normal):
 @kernel
 def tell(land, ball, number, now, normal, before, log):
     """Log an impact."""
-    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
-    log.count[0] = min(log.count[0] + 1, len(log.events))
+    event = next_event(log)
     event['time'] = now
     event['ball'] = number
     event['kind'] = BOUNCE

@@ -57,6 +57,12 @@ def pivoting(ball, material, press, drive, radius, inertia):
     return max(min(drive, most), -most)
 
 
+@kernel
+def between_bounces(ball, normal, press, downhill):
+    """How hard a ball presses, and what drives it along the ground, while its last bounces go on."""
+    return ball['tail_press'] * press, add(downhill, tangential(vector(ball['tail_air']), normal))
+
+
 @shared
 def following_rates(land, ball, place, velocity, spin):
     """Acceleration, rate of spin, press, and grip needed, of a ball that follows ground which is not flat.
@@ -80,8 +86,7 @@ def following_rates(land, ball, place, velocity, spin):
     tail = ball['tail_end'] > ball['begin']  # single impacts do not brake a rolling ball, nor does their sum
     load = press
     if tail:
-        load *= ball['tail_press']
-        downhill = add(downhill, tangential(vector(ball['tail_air']), normal))
+        load, downhill = between_bounces(ball, normal, press, downhill)
     free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
     resistance = 0.0 if tail else brake(material, press, downhill, k)
     if length(velocity) > STILL:

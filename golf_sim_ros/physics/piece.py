@@ -79,6 +79,12 @@ def lay_next(model, ball, now):
         if water > 0:
             ball['ending'] = SPLASH
             ball['target'] = water
+    end_piece(model, ball, now, until)
+
+
+@kernel
+def end_piece(model, ball, now, until):
+    """Let the piece end after `until`, or when time ends it. Writes end, ending, stuck."""
     ball['end'] = now + until
     if ball['piled'] and ball['ending'] == STEP and ball['end'] > next_instant(now) - 1e-9:
         ball['end'] = next_instant(now)  # the same number for all

@@ -2,7 +2,7 @@
 """What is kept of a shot on its way, for its result."""
 from . import path
 from ._compile import entry, kernel
-from .state import FLIGHT, GONE, LAUNCH, REST, moves
+from .state import FLIGHT, GONE, LAUNCH, REST, moves, next_event
 from .vector import ZERO, put, vector
 
 TOP = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
@@ -63,8 +63,7 @@ def end_shot(ball, number, now, kind, log):
         put(ball['velocity'], ZERO)
         put(ball['spin'], ZERO)
     ball['playing'] = 0
-    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
-    log.count[0] = min(log.count[0] + 1, len(log.events))
+    event = next_event(log)
     event['time'] = now
     event['ball'] = number
     event['kind'] = kind
@@ -94,8 +93,7 @@ def keep_end(ball, end):
 @kernel
 def tell_gone(ball, number, now, log):
     """Log that the ball has gone out of bounds."""
-    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
-    log.count[0] = min(log.count[0] + 1, len(log.events))
+    event = next_event(log)
     event['time'] = now
     event['ball'] = number
     event['kind'] = GONE

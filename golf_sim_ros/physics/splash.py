@@ -4,7 +4,7 @@ from math import asin, pi, sqrt
 
 from ._compile import kernel, shared
 from .shot import note_landing
-from .state import FLIGHT, NO_PART, WATER, WET, moves
+from .state import FLIGHT, NO_PART, WATER, WET, moves, next_event
 from .vector import ZERO, dot, length, put, scale, sub, vector
 
 WATER_DENSITY = 998.0  # kg/m^3, fresh, at 20 degrees Celsius
@@ -71,8 +71,7 @@ def skips(land, ball, velocity, heavy):
 @kernel
 def tell(land, ball, number, now, before, log):
     """Log that the ball met water."""
-    event = log.events[min(log.count[0], len(log.events) - 1)]  # a full log loses its last
-    log.count[0] = min(log.count[0] + 1, len(log.events))
+    event = next_event(log)
     event['time'] = now
     event['ball'] = number
     event['kind'] = WET

@@ -127,6 +127,13 @@ def new_log(capacity=64):
 
 
 @kernel
+def next_event(log):
+    """Event of the log to be written next; where it is full, the last one, which is lost. Writes count."""
+    log.count[0] = min(log.count[0] + 1, len(log.events))
+    return log.events[log.count[0] - 1]
+
+
+@kernel
 def moves(phase):
     """Whether a ball in `phase` moves."""
     return phase == FLIGHT or phase == SLIDE or phase == ROLL

@@ -2,7 +2,7 @@
 """What a study does, row by row."""
 from functools import lru_cache, partial
 
-from . import effects, sizes, ticks
+from . import effects, promises, sizes, ticks
 from .measure import Stage, measured
 from .methods import TRUTH, methods
 from .scenes import quick_scenes, scenes
@@ -13,7 +13,8 @@ TICKED = ('iron into a green', 'bouncing on hard ground', 'mesh bounce')
 def jobs(quick):
     """Part and function of each row: a list of pairs, of the quick study or of the full one."""
     found = quick_scenes() if quick else scenes()
-    parts = {'methods': of_methods(found)}
+    fairway = found[0].course.ground[0].material
+    parts = {'methods': of_methods(found), 'promises': promises.jobs(fairway)}
     if not quick:
         parts['effects'] = effects.jobs(found)
         parts['ticks'] = ticks.jobs([scene for scene in found if scene.name in TICKED])

@@ -70,6 +70,17 @@ def preset_table(rows):
     return '\n'.join(lines)
 
 
+def promise_table(rows):
+    """Markdown table: promises of the presets, and what many shots showed."""
+    lines = ['| preset | shots | first touch: median | worst | promised | rest: worst | promised |',
+             '|---|---|---|---|---|---|---|']
+    for row in rows:
+        preset = ACCURACY[row.accuracy]
+        lines.append(f'| {row.accuracy} | {row.shots:,} | {row.touch_median:.1e} m | {row.touch_worst:.1e} m '
+                     f'| {preset.touch:g} m | {row.rest_worst:.1e} m | {preset.rest:g} m |')
+    return '\n'.join(lines)
+
+
 def report_costs(rows):
     """Markdown list: what the report's choices cost in each scene."""
     lines = []

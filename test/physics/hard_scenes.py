@@ -13,7 +13,7 @@ from golf_sim_ros.physics import (PENNER, Ball, Course, Cylinder, Heightmap, Mat
                                   Plane, Restitution, World, rolling_resistance_of_stimp)
 from golf_sim_ros.physics.ground.cup import RADIUS as HOLE
 from oracles import G, RADIUS
-from scene import energy
+from scene import bowl, energy
 
 BALLS = ('gravity', 'ball_ball')
 IDEAL = Material('ideal', Restitution(1.0))
@@ -175,22 +175,6 @@ def box(side, height=2.0, material=FLOOR):
     return (Plane(material=material), *walls)
 
 
-def bowl(rings=8, spokes=24, radius=0.3, depth=0.15):
-    """A dish of triangles around the z axis, in facets."""
-    places = [(0.0, 0.0, 0.0)]
-    for ring in range(1, rings + 1):
-        for spoke in range(spokes):
-            angle, r = 2 * pi * (spoke + 0.5 * (ring % 2)) / spokes, radius * ring / rings
-            places.append((r * cos(angle), r * sin(angle), depth * (r / radius) ** 2))
-    faces = [(0, 1 + k, 1 + (k + 1) % spokes) for k in range(spokes)]
-    for ring in range(1, rings):
-        for k in range(spokes):
-            a, b = 1 + (ring - 1) * spokes + k, 1 + (ring - 1) * spokes + (k + 1) % spokes
-            c, d = a + spokes, b + spokes
-            faces += [(a, b, d), (a, d, c)] if ring % 2 == 0 else [(a, b, c), (b, d, c)]
-    return Mesh(np.array(places), np.array(faces), FLOOR)
-
-
 def poured(ground, count, accuracy):
     """World of balls let go in a heap over `ground`."""
     course = Course(ground, tee=(0.0, 500.0), ball=Ball(restitution=0.5, friction=0.2), effects=BALLS)
@@ -217,7 +201,7 @@ def heaped(ground, count, accuracy, rate):
     return overlap(world)
 
 
-IN_A_BOWL = (Plane((0.0, 0.0, -1.0), material=FLOOR), bowl())
+IN_A_BOWL = (Plane((0.0, 0.0, -1.0), material=FLOOR), Mesh(*bowl(radius=0.3, depth=0.15), FLOOR))
 
 
 # Rest, and none

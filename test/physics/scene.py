@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a ball's place and motion on planes, patches and meshes mean, worked out apart from the physics."""
 from functools import lru_cache
-from math import cos, inf, sin
+from math import cos, inf, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -127,3 +127,20 @@ def depth(course, point):
 def touches(course, point, within=1e-6):
     """Whether a ball at `point` touches any ground."""
     return bool((np.abs(gaps(course, point)[0]) <= within).any())
+
+
+def bowl(rings=8, spokes=24, radius=0.6, depth=0.2):
+    """A dish of triangles around the z axis, in facets."""
+    places = [(0.0, 0.0, 0.0)]
+    for ring in range(1, rings + 1):
+        for spoke in range(spokes):
+            angle = 2 * pi * (spoke + 0.5 * (ring % 2)) / spokes
+            r = radius * ring / rings
+            places.append((r * cos(angle), r * sin(angle), depth * (r / radius) ** 2))
+    faces = [(0, 1 + k, 1 + (k + 1) % spokes) for k in range(spokes)]
+    for ring in range(1, rings):
+        for k in range(spokes):
+            a, b = 1 + (ring - 1) * spokes + k, 1 + (ring - 1) * spokes + (k + 1) % spokes
+            c, d = a + spokes, b + spokes
+            faces += [(a, b, d), (a, d, c)] if ring % 2 == 0 else [(a, b, c), (b, d, c)]
+    return np.array(places), np.array(faces)

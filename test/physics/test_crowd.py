@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from golf_sim_ros.physics import Ball, Course, Material, Patch, Phase, Plane, Restitution, World
+from golf_sim_ros.physics.state import new_log, next_event
 from hard_scenes import IN_A_BOWL, poured
+from other_process import run
 
 RADIUS = Ball().radius
 IDEAL = Material('ideal', Restitution(1.0))
@@ -164,6 +166,18 @@ def test_a_ball_that_stops_in_the_way_of_one_that_rolls_is_hit(ahead):
         bumps += sum(event.kind == 'ball' for event in world.advance(0.01))
         deepest = max(deepest, overlaps(world))
     assert bumps and deepest < 1e-6 and not world.moving
+
+
+def test_a_full_log_of_events_loses_its_last_one():
+    assert run(filled) == [[1.0, 3.0], 2]
+
+
+def filled():
+    """Times and count of a log for two events that three were written to."""
+    log = new_log(2)
+    for time in (1.0, 2.0, 3.0):
+        next_event(log)['time'] = time
+    return log.events['time'].tolist(), int(log.count[0])
 
 
 def test_a_place_that_another_ball_has_is_refused():

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Meshes: triangles are the ground they show; no side, corner or crack between them is felt or passed."""
-from math import cos, hypot, pi, sin
+from math import cos, hypot, sin
 import os
 
 from driving_range import GRAVITY, HARD
@@ -12,6 +12,7 @@ from golf_sim_ros.physics.ground.surface import look_down
 import numpy as np
 from oracles import RADIUS
 import pytest
+from scene import bowl
 
 SHOTS = int(os.environ.get('MESH_SHOTS', 100))  # at the sheet that nothing may pass
 SIDE = 6.0  # m from the middle of a floor to its sides
@@ -197,23 +198,6 @@ def test_a_ball_dropped_beside_a_vertex_leaves_on_that_side(x, y):
     states, ball = played(course(*PYRAMID), (x, y, 0.8), None, None, ticks=12, tick=0.05)
     assert np.dot(ball.position[:2], (x, y)) > 0.05 * hypot(x, y)
     assert abs(ball.position[0] * y - ball.position[1] * x) < 0.02 * hypot(x, y)
-
-
-def bowl(rings=8, spokes=24, radius=0.6, depth=0.2):
-    """A dish of triangles around the z axis, in facets."""
-    places = [(0.0, 0.0, 0.0)]
-    for ring in range(1, rings + 1):
-        for spoke in range(spokes):
-            angle = 2 * pi * (spoke + 0.5 * (ring % 2)) / spokes
-            r = radius * ring / rings
-            places.append((r * cos(angle), r * sin(angle), depth * (r / radius) ** 2))
-    faces = [(0, 1 + k, 1 + (k + 1) % spokes) for k in range(spokes)]
-    for ring in range(1, rings):
-        for k in range(spokes):
-            a, b = 1 + (ring - 1) * spokes + k, 1 + (ring - 1) * spokes + (k + 1) % spokes
-            c, d = a + spokes, b + spokes
-            faces += [(a, b, d), (a, d, c)] if ring % 2 == 0 else [(a, b, c), (b, d, c)]
-    return np.array(places), np.array(faces)
 
 
 @pytest.mark.parametrize('velocity', [(0, 0, 0), (0, 0.5, 0), (0.3, 0.2, 0)])

@@ -2,6 +2,7 @@
 """What turf and sand do to balls that land, and to those that roll: against what golfers see."""
 import csv
 from math import pi
+import os
 from pathlib import Path
 
 from driving_range import launched, level
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 MPH, YARD, RPM, DEGREE = 0.44704, 0.9144, pi / 30, pi / 180
+IMPACTS = int(os.environ.get('RANDOM_SHOTS', 100))  # of a material; 15000 for the whole lot
 DATA = Path(__file__).parents[1] / 'data'
 PENNER_ROWS = [row for row in csv.DictReader(
     line for line in (DATA / 'bounce_expected_penner.csv').read_text().splitlines() if line[0] != '#')
@@ -72,7 +74,7 @@ def test_no_impact_leaves_into_the_ground_or_gains_energy(name):
     rng = np.random.default_rng(11)
     world = World(ground(name))
     radius, inertia = world.course.ball.radius, world.course.ball.inertia
-    for _ in range(100):
+    for _ in range(IMPACTS):
         direction = rng.normal(size=3)
         velocity = rng.uniform(0.5, 80) * direction / np.linalg.norm(direction)
         velocity[2] = -abs(velocity[2])

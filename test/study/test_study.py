@@ -6,7 +6,7 @@ import re
 import pytest
 
 from golf_sim_ros.physics import ACCURACY
-from golf_sim_ros.study import tables
+from golf_sim_ros.study import promises, tables
 from golf_sim_ros.study.effects import EffectRow
 from golf_sim_ros.study.measure import played, Row, Stage, ticked, Truth
 from golf_sim_ros.study.scenes import quick_scenes, rack, scenes
@@ -90,3 +90,11 @@ def test_the_page_shows_each_picture_and_table_that_is_written(tmp_path):
     assert named == {path.name for path in tmp_path.glob('*.png')} and len(named) == 4
     assert len((tmp_path / 'accuracy_effects.csv').read_text().splitlines()) == 2
     assert '{' not in text
+
+
+def test_many_shots_are_within_what_the_presets_promise():
+    for job in promises.jobs(SCENES['iron into a green'].course.ground[0].material, 300):
+        found = job()
+        preset = ACCURACY[found.accuracy]
+        assert found.shots == 300 and 0.0 < found.touch_median < found.touch_worst < preset.touch
+        assert 0.0 < found.rest_worst < preset.rest

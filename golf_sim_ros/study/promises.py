@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How far the presets are off over many random shots, against what they promise."""
+from functools import lru_cache, partial
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from ..physics import ACCURACY, simulate_many
+from .methods import TRUTH
+from .scenes import EFFECTS, level
+
+SHOTS = 20_000
+
+
+class PromiseRow(NamedTuple):
+    """A preset over many shots: errors [m] of the first touch, median and worst, and of the rest, worst."""
+
+    accuracy: str
+    shots: int
+    touch_median: float
+    touch_worst: float
+    rest_worst: float
+
+
+def jobs(material, count=SHOTS):
+    """A function for each row; `count` shots end on level ground of a `material`."""
+    ends = lru_cache(partial(played, level(material), count))
+    return [partial(kept, ends, name) for name in ACCURACY]
+
+
+def random_shots(count, seed=1):
+    """Velocities [m/s] and spins [rad/s], (n, 3): 5 to 90 m/s, 2 to 60 degrees high, to 1000 rad/s."""
+    random = np.random.default_rng(seed)
+    speed, up = random.uniform(5, 90, count), random.uniform(2, 60, count) * pi / 180
+    axes = random.normal(size=(count, 3))
+    spins = axes * (random.uniform(0, 1000, count) / np.linalg.norm(axes, axis=1))[:, np.newaxis]
+    return np.transpose([speed * np.cos(up), np.zeros(count), speed * np.sin(up)]), spins
+
+
+def played(course, count, accuracy):
+    """First touches (n, 2), along the launch and across, and rests (n, 3) of the random shots [m]."""
+    told = simulate_many(course, *random_shots(count), effects=EFFECTS, accuracy=accuracy)
+    side = told['carry_side']
+    return np.transpose([np.sqrt(told['carry'] ** 2 - side ** 2), side]), told['position']
+
+
+def kept(ends, name):
+    """`PromiseRow` of a preset; ``ends(accuracy)`` gives what `played` does."""
+    touch, rest = (np.linalg.norm(mine - true, axis=1) for mine, true in zip(ends(name), ends(TRUTH)))
+    return PromiseRow(name, len(touch), float(np.median(touch)), touch.max(), rest.max())
