@@ -2,21 +2,22 @@
 """A ball that several surfaces hold at once: in a groove, a corner, a slot, or blown against a wall.
 
 There impacts follow each other ever faster. After some it is caught: it moves in small steps of
-time, and at each step's end whatever it touches takes away what drives it in, with friction, as
-often as it takes (Moreau's time stepping, with projected Gauss-Seidel and projected positions).
+time, and at each step's end whatever it touches takes away what drives it in, with friction
+(Moreau's time stepping, see pressing.py), and pushes it out.
 """
 from math import sqrt
 
 from ._compile import kernel, shared
-from .contact import material_of, settle, stand_on
-from .detect import NEAR
+from .contact import settle, stand_on
+from .crowd import CONTACTS
+from .detect import NEAR, TOUCH
 from .effects import pull
 from .ground import surface
-from .impulse import Bond, impulse, take
 from .motion import STILL
 from .path import greatest_acceleration
+from .pressing import ground_contacts, press_once, shift_once
 from .state import FLIGHT, NO_PART, REST, SLIDE
-from .vector import ZERO, along, dot, length, put, scale, vector
+from .vector import ZERO, add, dot, length, put, scale, vector
 
 STALL = 1e-6  # s between impacts: of a ball that is being caught they are less
 MANY_STALLS = 20
@@ -47,26 +48,30 @@ def presses(land, ball, normal):
 
 
 @shared
-def hold(land, ball, now):
-    """Let what the ball touches hold it. Writes position, motion, phase and contact.
+def hold(land, ball, i, now, crowd):
+    """Let what ball `i` touches hold it. Writes position, motion, phase and contact.
 
     A ball left with one surface to lie on, or none, is caught no more.
     """
-    put(ball['normal'], ZERO)
-    ball['support'] = NO_PART
-    surfaces = 0
-    braking = 0.0
+    put(crowd.before[i, 0:3], vector(ball['velocity']))
+    put(crowd.before[i, 3:6], vector(ball['spin']))
+    crowd.count[CONTACTS] = 0
+    ground_contacts(land, ball, i, crowd, NEAR)
+    put(crowd.flow[i], ZERO)
     for sweep in range(SWEEPS):
-        found, drive, brake = hold_once(land, ball)
-        surfaces = max(surfaces, found)
-        braking += brake
-        if drive <= 0.01 * STILL:
+        if press_once(land, crowd, sweep % 2 == 1) <= 0.01 * STILL:
             break
-    speed = length(vector(ball['velocity']))
+    for sweep in range(SWEEPS):
+        if shift_once(crowd, sweep % 2 == 1) <= TOUCH:
+            break
+    put(ball['position'], add(vector(ball['position']), vector(crowd.flow[i])))
+    braking = stand(land, ball, crowd)
+    speed = length(vector(crowd.before[i, 0:3]))
     left = max(speed - braking, 0.0)
-    if speed > 0.0:
-        put(ball['velocity'], scale(left / speed, vector(ball['velocity'])))
-        put(ball['spin'], scale(left / speed, vector(ball['spin'])))
+    share = left / speed if speed > 0.0 else 1.0
+    put(ball['velocity'], scale(share, vector(crowd.before[i, 0:3])))
+    put(ball['spin'], scale(share, vector(crowd.before[i, 3:6])))
+    surfaces = crowd.count[CONTACTS]
     ball['phase'] = FLIGHT
     # What is held does not hop: else the rounding of its rise would decide the next step's length.
     ball['step'] = CAUGHT_STEP if surfaces > 0 else 0.0
@@ -84,41 +89,15 @@ def hold(land, ball, now):
 
 
 @kernel
-def stop_approach(land, ball, part, normal):
-    """Let `part` take away what drives the ball in, with friction. Returns its rolling resistance."""
-    material = material_of(land, ball, part, normal)
-    bond = Bond(0.0, 0.0, material['dynamic_friction'], land.ball.mass, land.ball.inertia)
-    push = impulse(bond, vector(ball['velocity']), vector(ball['spin']), normal, land.ball.radius)
-    take(ball, push, normal, land.ball)
-    return material['rolling_resistance']
-
-
-@kernel
-def hold_once(land, ball):
-    """One sweep over all that is touched: how many surfaces, the greatest approach, rolling resistance.
-
-    The ball stands on what presses most. Writes position, velocity, spin and contact.
-    """
-    surfaces = 0
-    drive = 0.0
+def stand(land, ball, crowd):
+    """Let the ball stand on what presses most. Returns what rolling resistance takes [m/s]. Writes contact."""
+    put(ball['normal'], ZERO)
+    ball['support'] = NO_PART
     braking = 0.0
-    last = ZERO
-    low, high = surface.around(vector(ball['position']), land.ball.radius + NEAR)
-    part = surface.next_part(land.ground, 0, low, high)
-    while part >= 0:
-        place = vector(ball['position'])
-        distance, normal = surface.nearest(land.ground, part, place)
-        gap = distance - land.ball.radius
-        if gap <= NEAR and dot(normal, last) <= 1.0 - 1e-9 and surface.touchable(land.ground, part, place):
-            last = normal
-            surfaces += 1
-            if gap < 0.0:
-                put(ball['position'], along(place, -gap, normal))
-            approach = -dot(vector(ball['velocity']), normal)
-            if approach > 0.0:
-                drive = max(drive, approach)
-                braking += approach * stop_approach(land, ball, part, normal)
-            if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
-                stand_on(land, ball, surface.support_of(land.ground, part), normal)
-        part = surface.next_part(land.ground, part + 1, low, high)
-    return surfaces, drive, braking
+    for n in range(crowd.count[CONTACTS]):
+        row = crowd.contacts[n]
+        normal = vector(row['normal'])
+        braking += row['shared'] * row['push']
+        if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
+            stand_on(land, ball, surface.support_of(land.ground, row['part']), normal)
+    return braking

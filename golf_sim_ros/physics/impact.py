@@ -65,7 +65,7 @@ def meet(land, balls, i, now, crowd, log):
     if ball['piled']:
         leave(ball)
     elif is_caught(ball):
-        hold(land, ball, now)
+        hold(land, ball, i, now, crowd)
 
 
 @kernel

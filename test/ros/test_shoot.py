@@ -322,6 +322,20 @@ def test_a_shot_at_the_real_sims_hole_goes_towards_its_marker(shoot, golfer):
     assert velocity == pytest.approx([5 * MPH * cos(direction), 5 * MPH * sin(direction), 0.0], abs=1e-3)
 
 
+def test_a_putt_of_3_m_can_be_holed_and_the_result_says_so(shoot, start, make_golfer):
+    start('sim_node', *parameters('/green', course='putting_green', real_time_factor=8.0)).wait_for('ready')
+    golfer = make_golfer('/green')
+    code, output = shoot('putter --units si --speed 2.6 --azimuth -3.7 --namespace /green')
+    assert code == 0
+    assert 'ended          holed' in output
+    wait_until(lambda: golfer.results, 'the result came')
+    result = json.loads(golfer.results[-1].data)
+    assert result['status'] == 'holed'
+    assert result['to_hole'] < 0.054
+    x, y, z = place(golfer.poses[-1])
+    assert hypot(x - 3.0, y) < 0.054 and z < result['position'][2] + 1e-3
+
+
 def test_a_ball_in_motion_rejects_the_next_shot(start, golfer):
     rest = place(golfer.poses[-1])
     golfer.strike((5.0, 0.0, 40.0))
