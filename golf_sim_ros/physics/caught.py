@@ -90,7 +90,7 @@ def hold(land, ball, i, now, crowd):
 
 @kernel
 def stand(land, ball, crowd):
-    """Let the ball stand on what presses most. Returns what rolling resistance takes [m/s]. Writes contact."""
+    """Let the ball stand on what presses most. Writes contact; returns what resistance takes [m/s]."""
     put(ball['normal'], ZERO)
     ball['support'] = NO_PART
     braking = 0.0

@@ -18,7 +18,7 @@ from .state import BALL_STOPS, REST, ROLL, SLIDE, SLIP_STOPS, STEP
 from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, unit, vector
 
 LONGEST = 10.0  # s of one piece
-UNHURRIED = 0.1  # s: a shorter piece must be the more exact, for its curve errs in velocity by the error over it
+UNHURRIED = 0.1  # s: a shorter piece must be the more exact, as velocity errs by a path's error over its time
 ROUNDING = 1e-12  # m: no curve is nearer than this to a closed form
 
 
