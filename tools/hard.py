@@ -35,11 +35,6 @@ ended, at the worst of the three rates, in metres and m/s: to be held against `w
 `standard`. A rougher preset may be off by what it promises. *fails* says what did not hold; "as it may":
 nothing exact is expected. The tables of `test/physics/hard_scenes.py` show the figure itself at the worst
 of the rates, beside the range that is expected of it.
-
-A gain of energy is one between two ticks, and the two can lie within a piece of path. Where slip ends within
-milliseconds, a curve that is right to what the preset lets a path be off is off in velocity by some 1e-3 m/s
-between its ends, and right again at them: that is what fails with `standard`. With `reference` a ball on the
-lips of a slot swings by a tenth of a micrometre and is never let go to rest.
 """
 
 

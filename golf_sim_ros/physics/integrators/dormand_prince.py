@@ -19,6 +19,8 @@ TABLE = np.array([
     [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
     [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]])
 ERROR = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
+ON_GROUND = 0.2  # of the tolerance: along the ground, where a ball must be slow to stop, errors count more,
+MOST_ON_GROUND = 1e-5  # m: and coarser steps cost as much, for other things end them
 
 
 class DormandPrince(NamedTuple):
@@ -51,8 +53,9 @@ def _first_step(method, speed, hop):
 
 
 @runge_kutta.next_step.register(DormandPrince)
-def _next_step(method, h, error):
-    ratio = error / method.tolerance
+def _next_step(method, h, error, flies):
+    allowed = method.tolerance if flies else min(ON_GROUND * method.tolerance, MOST_ON_GROUND)
+    ratio = error / allowed
     if ratio <= 1.0:
         grow = 0.9 * max(ratio, 1e-4) ** -0.2
         return min(h * min(max(grow, 0.5), 4.0), method.longest), True

@@ -31,7 +31,7 @@ def _first_step(method, speed, hop):
 
 
 @runge_kutta.next_step.register(RungeKutta4)
-def _next_step(method, h, error):
+def _next_step(method, h, error, flies):
     return method.length, True  # however short an event has made this one
 
 

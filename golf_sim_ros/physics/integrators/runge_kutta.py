@@ -15,7 +15,6 @@ from ..vector import along, dot, length, put, sub, vector
 # bend a drive by about a metre in that time.
 VELOCITY_WEIGHT = 1.0  # s
 SPIN_WEIGHT = 0.01  # m s
-GROUND_WEIGHT = 5.0  # on the ground, where a ball must be slow to stop, errors count so many times
 
 NO_TABLE = np.zeros((1, 1))
 NO_ERROR = np.zeros(1)
@@ -44,10 +43,10 @@ def first_step(method, speed, hop):
 
 
 @generic
-def next_step(method, h, error):
+def next_step(method, h, error, flies):
     """Length of the next step, or of the same again, after one of `h` with an `error` in metres.
 
-    Also whether that step may stand.
+    Also whether that step may stand. The ball `flies`, or goes along the ground.
     """
     return h, True
 
@@ -98,10 +97,9 @@ def state_after(ball, change):
 def error_in_metres(ball, weights, h):
     """Weighted size of the embedded error estimate."""
     e = mix(ball, weights, len(weights), h)
-    size = sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
+    return sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
                 + VELOCITY_WEIGHT * VELOCITY_WEIGHT * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
                 + SPIN_WEIGHT * SPIN_WEIGHT * (e[6] * e[6] + e[7] * e[7] + e[8] * e[8]))
-    return size if ball['phase'] == FLIGHT else GROUND_WEIGHT * size
 
 
 @kernel
@@ -150,12 +148,13 @@ def step(method, model, ball):
     if h == 0.0:
         h = first_step(method, airspeed(model, ball), hop(model, ball))
     h = min(h, longest(model, ball))
+    flies = ball['phase'] == FLIGHT
     while True:
         change = NO_CHANGE
         for i in range(1, last + 1):
             change = mix(ball, rows[i], i, h)
             stage(model, ball, i, state_after(ball, change))
-        following, stands = next_step(method, h, error_in_metres(ball, weights, h))
+        following, stands = next_step(method, h, error_in_metres(ball, weights, h), flies)
         ball['step'] = following
         if stands:
             break
