@@ -33,9 +33,21 @@ def gap_between(a, b, radius, now):
 
 
 @kernel
-def bend_of(ball):
-    """Bound on the acceleration of a ball on its piece."""
-    return path.greatest_acceleration(ball) if moves(ball['phase']) else 0.0
+def bend_between(a, b):
+    """Bound on the acceleration of one ball against the other: of two that fly alike it is nearly none."""
+    common = path.bend(a, 0) if moves(a['phase']) else ZERO
+    return strays_from(a, common) + strays_from(b, common)
+
+
+@kernel
+def strays_from(ball, acceleration):
+    """How far the ball's acceleration on its piece is from another, at most."""
+    if not moves(ball['phase']):
+        return length(acceleration)
+    most = 0.0
+    for i in range(4):
+        most = max(most, length(sub(path.bend(ball, i), acceleration)))
+    return most
 
 
 @kernel
@@ -55,7 +67,7 @@ def part_from(a, b, radius, now, until):
 @kernel
 def first_touch_of(a, b, radius, begin, until):
     """Time from `begin` to `until` up to which two balls do not touch; whether they do then."""
-    bend = bend_of(a) + bend_of(b)
+    bend = bend_between(a, b)
     now = begin
     for _ in range(MOST_STEPS):
         gap, rate, _ = gap_between(a, b, radius, now)

@@ -54,7 +54,8 @@ def gather(land, balls, crowd, now):
     while k < crowd.count[MEMBERS]:
         i = crowd.members[k]
         gather_ground(land, balls[i], i, crowd, 0 if k == 0 else crowd.count[CONTACTS])
-        others.gather_balls(crowd, land, balls, i, now)
+        if not balls[i]['piled']:  # a pile passes on what it is given
+            others.gather_balls(crowd, land, balls, i, now)
         k += 1
 
 

@@ -327,7 +327,7 @@ def test_a_putt_of_3_m_can_be_holed_and_the_result_says_so(shoot, start, make_go
     golfer = make_golfer('/green')
     code, output = shoot('putter --units si --speed 2.6 --azimuth -3.7 --namespace /green')
     assert code == 0
-    assert 'ended          holed' in output
+    assert 'ended          in the hole' in output
     wait_until(lambda: golfer.results, 'the result came')
     result = json.loads(golfer.results[-1].data)
     assert result['status'] == 'holed'
