@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import (Course, LogProfile, Material, Patch, Phase, Plane, Restitution, Result,
-                                  World, ground_height, simulate_many)
+from golf_sim_ros.physics import (Course, Cylinder, Heightmap, LogProfile, Material, Mesh, Patch, Phase,
+                                  Plane, Restitution, Result, World, ground_height, simulate_many)
 from scene import depth, energy, touches
 
 SHOTS = int(os.environ.get('RANDOM_SHOTS', 300))  # 10000 for the whole lot
@@ -124,6 +124,41 @@ def test_a_ball_among_patches_anyhow_comes_to_an_end_and_gains_no_energy(clutter
     except ValueError:
         return
     watch(world)
+
+
+def hills(heights, material):
+    """The same 5 by 5 `heights` twice, half a metre apart: a height map, and right of it a mesh."""
+    heights = np.reshape(heights, (5, 5))
+    x, y = np.meshgrid(np.linspace(1.0, 3.0, 5), np.linspace(-1.0, 1.0, 5))
+    first = np.arange(25).reshape(5, 5)[:-1, :-1].ravel()
+    faces = np.concatenate([np.c_[first, first + 1, first + 6], np.c_[first, first + 6, first + 5]])
+    return (Heightmap(heights, (-1.0, -1.0), 0.5, material),
+            Mesh(np.c_[x.ravel(), y.ravel(), heights.ravel()], faces, material))
+
+
+lands = st.builds(hills, st.lists(numbers(0, 0.4), min_size=25, max_size=25), materials)
+trunks = st.builds(Cylinder, st.tuples(numbers(-1, 3), numbers(-1, 1), of(-1.0)), numbers(0.01, 0.3), of(2.0),
+                   materials)
+
+
+@settings(max_examples=SHOTS // 20, deadline=None, derandomize=True, database=None,
+          suppress_health_check=list(HealthCheck))
+@given(lands, st.lists(trunks, min_size=1, max_size=2), vectors(10), vectors(300))
+def test_a_ball_on_any_hills_among_trunks_gains_no_energy(land, trees, velocity, spin):
+    course = Course((Plane((0, 0, -1), material=ROUGH), *land), tee=(9.0, 0.0), obstacles=tuple(trees),
+                    effects=STILL)
+    world = World(course)
+    try:
+        world.place('ball', (0.9, 0.0, 1.0), velocity, spin)
+    except ValueError:
+        return
+    last = energy(course, world['ball'])
+    while world.moving and world.time < 10.0:
+        events = world.advance(TICK)
+        now = energy(course, world['ball'])
+        assert now <= last + RELATIVE * abs(last) * (1 + len(events)) + LIFT, (world.time, now - last)
+        last = now
+    assert np.isfinite((*world['ball'].position, last)).all()
 
 
 @settings(max_examples=SHOTS // 20, deadline=None, derandomize=True, database=None)
