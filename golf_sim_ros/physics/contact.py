@@ -12,7 +12,7 @@ from . import braked
 from .effects import pull
 from .ground import surface
 from .impulse import slip
-from .motion import STILL, between_bounces, brake, material_under
+from .motion import STILL, between_bounces, brake, material_under, rolling_needs
 from .path import lay, position
 from .state import BALL_STOPS, REST, ROLL, SLIDE, SLIP_STOPS, STEP
 from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, unit, vector
@@ -86,14 +86,15 @@ def settle(land, ball, now):
     v = along(vector(ball['velocity']), -dot(vector(ball['velocity']), normal), normal)
     k = land.ball.inertia
     turning = dot(vector(ball['spin']), normal)
-    grips = k / (1.0 + k) * length(downhill) <= material['static_friction'] * press
+    needed = rolling_needs(downhill, k)
+    grips = needed <= material['static_friction'] * press
     put(ball['velocity'], v)
     sliding = slip(v, vector(ball['spin']), normal, land.ball.radius)
     if not grips or ball['phase'] != ROLL and length(sliding) > STILL:
         ball['phase'] = SLIDE
         return
     ball['phase'] = ROLL
-    holds = length(downhill) / (1.0 + k) <= brake(material, press, downhill, k)
+    holds = length(downhill) / (1.0 + k) <= brake(material, press, needed)
     if length(v) <= STILL and holds and not in_tail(ball, now):
         v = ZERO
         put(ball['velocity'], v)
@@ -122,7 +123,8 @@ def flat_piece(land, ball, now):
         motion = braked.braked(u, downhill, (1.0 + 1.0 / k) * material['dynamic_friction'] * load, normal)
         coast = (along(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:
-        motion = braked.braked(v, drift, 0.0 if tail else brake(material, press, downhill, k), normal)
+        resistance = 0.0 if tail else brake(material, press, rolling_needs(downhill, k))
+        motion = braked.braked(v, drift, resistance, normal)
         coast = (ZERO, ZERO, 1.0)
     unwinding = material['pivot_friction'] * press / (k * land.ball.radius * land.ball.radius)
     turning = dot(vector(ball['spin']), normal)

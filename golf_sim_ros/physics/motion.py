@@ -28,14 +28,20 @@ def material_under(land, ball):
 
 
 @kernel
-def brake(material, press, downhill, inertia):
+def brake(material, press, needed):
     """Deceleration of a rolling ball: what rolling resistance asks for and grip can give.
 
-    Friction must brake, and turn the ball as it speeds up downhill, with k/(1 + k) of that pull. So a
-    ball holds where (5/7) tan <= rolling resistance and tan <= static friction.
+    Friction must brake, and turn the ball as it speeds up downhill, for which that much grip is `needed`:
+    on a plane k/(1 + k) of the pull. So a ball holds where (5/7) tan <= rolling resistance and
+    tan <= static friction.
     """
-    grip = material['static_friction'] * press - inertia / (1.0 + inertia) * length(downhill)
-    return min(material['rolling_resistance'] * press, max(grip, 0.0))
+    return min(material['rolling_resistance'] * press, max(material['static_friction'] * press - needed, 0.0))
+
+
+@kernel
+def rolling_needs(downhill, inertia):
+    """Friction over mass that turns a ball as it rolls down a plane."""
+    return inertia / (1.0 + inertia) * length(downhill)
 
 
 @kernel
@@ -65,7 +71,7 @@ def between_bounces(ball, normal, press, downhill):
 
 @shared
 def following_rates(land, ball, place, velocity, spin):
-    """Acceleration, rate of spin, press, and grip needed, of a ball that follows ground which is not flat.
+    """Acceleration, rate of spin, press, and grip needed to roll, of a ball on ground which is not flat.
 
     A press below 0 means that the ground would have to pull.
 
@@ -88,13 +94,13 @@ def following_rates(land, ball, place, velocity, spin):
     if tail:
         load, downhill = between_bounces(ball, normal, press, downhill)
     free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
-    resistance = 0.0 if tail else brake(material, press, downhill, k)
+    needed = length(sub(free, downhill))
+    resistance = 0.0 if tail else brake(material, press, needed)
     if length(velocity) > STILL:
         free = along(free, -resistance / length(velocity), velocity)
     else:  # it sets off as it is driven, if at all
         free = scale(max(1.0 - resistance / max(length(free), 1e-300), 0.0), free)
     friction = sub(free, downhill)
-    needed = length(friction)
     if ball['phase'] == SLIDE:
         against = scale(-1.0, slip(velocity, spin, normal, r))
         if length(against) <= STILL:
