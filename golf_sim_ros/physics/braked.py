@@ -18,6 +18,7 @@ from .vector import add, along, cross, dot, length, scale, unit
 MOST_EXPONENT = 690.0  # of exp in double precision
 NEVER = 1e300
 MOST_ROUNDS = 200
+FAR = 4.0  # times too long: of a parameter from which Newton's method is slow
 EXACT = 1e-9  # of the parameter: a correction after which only rounding is left
 
 
@@ -143,7 +144,9 @@ def half_way(motion, q):
 def parameter_at(motion, time):
     """Parameter q at `time` [s], which must lie before the stop.
 
-    Newton's method, kept inside a bracket; its last correction squares the error.
+    Newton's method, kept inside a bracket; its last correction squares the error. From far beyond, where time
+    grows as an exponential, it would come back by no more than the exponent's unit a round: there the bracket
+    is halved.
     """
     if starts_at_rest(motion):
         return time
@@ -157,9 +160,10 @@ def parameter_at(motion, time):
         else:
             high = q
         following = q + (time - passed[0]) / max(length(passed[1]), 1e-300)
-        if abs(following - q) <= EXACT * q:
+        is_far = passed[0] > FAR * time
+        if not is_far and abs(following - q) <= EXACT * q:
             return following
-        if not low < following < high:
+        if is_far or not low < following < high:
             following = 0.5 * (low + high) if high < inf else 2.0 * low
         q = following
     return q

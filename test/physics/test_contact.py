@@ -6,7 +6,8 @@ from pathlib import Path
 
 from driving_range import EVERYTHING, GRAVITY, HARD, TURF, down, level, random_shots, slope
 from golf_sim_ros.physics import (ACCURACY, Collision, Material, Phase, Preset, Restitution, Result, Shot,
-                                  World, rolling_resistance_of_stimp, simulate, simulate_many)
+                                  World, braked, rolling_resistance_of_stimp, simulate, simulate_many)
+from golf_sim_ros.physics._compile import entry
 from golf_sim_ros.physics.model import Limits
 import numpy as np
 import oracles
@@ -420,3 +421,19 @@ def test_the_smallest_lift_off_ends_at_rest_on_the_ground(accuracy):
         assert (ends['status'] == 'at_rest').all()
         assert np.abs(ends['position'][:, 2] - RADIUS).max() < 1e-9
         assert np.isfinite(ends['total']).all() and ends['total'].max() < 3
+
+
+@entry
+def time_at(u, pull, friction, time):
+    """Time at the parameter that is found for `time`."""
+    motion = braked.braked(u, pull, friction, (0.0, 0.0, 1.0))
+    return braked.after(motion, braked.parameter_at(motion, time))[0]
+
+
+@pytest.mark.parametrize('friction', [0.0, 1e-18, 1e-3, 4.9])
+@pytest.mark.parametrize('speed', [1e-9, 1e-6, 1e-3, 1.0, 100.0])
+@pytest.mark.parametrize('time', [1e-6, 1e-2, 10.0])
+def test_where_a_slide_down_a_slope_is_at_a_time_is_found_however_slow_it_begins(speed, friction, time):
+    for heading in np.arange(0.1, 6.3, 0.5):
+        u = speed * cos(heading), speed * sin(heading), 0.0
+        assert time_at(u, (5.0, 0.0, 0.0), friction, time) == pytest.approx(time, rel=1e-9)
