@@ -103,7 +103,7 @@ def resolve(model, balls, i, crowd, log):
     elif others.lean(crowd, model.land, balls, i, now):
         pass
     elif is_caught(ball):
-        hold(model.land, ball, i, now, crowd)
+        hold(model.land, balls, i, now, crowd)
     elif ball['phase'] != FLIGHT:
         ahead = unit(vector(ball['velocity']), ZERO)
         _, normal = surface.under(model.land.ground, ball['support'], vector(ball['position']), ahead)

@@ -8,16 +8,14 @@ time, and at each step's end whatever it touches takes away what drives it in, w
 from math import sqrt
 
 from ._compile import kernel, shared
-from .contact import settle, stand_on
+from .contact import settle
 from .crowd import CONTACTS
 from .detect import NEAR, TOUCH
-from .effects import pull
-from .ground import surface
 from .motion import STILL
 from .path import greatest_acceleration
-from .pressing import ground_contacts, press_once, shift_once
+from .pressing import follow, ground_contacts, hold_up, press_once, shift_once, slow_down
 from .state import FLIGHT, NO_PART, REST, SLIDE
-from .vector import ZERO, add, dot, length, put, scale, vector
+from .vector import ZERO, add, length, put, vector
 
 STALL = 1e-6  # s between impacts: of a ball that is being caught they are less
 MANY_STALLS = 20
@@ -25,7 +23,6 @@ CAUGHT_STEP = 2e-4  # s at most
 SINK = 2e-7  # m: by so much may acceleration drive a ball in, in a step
 SWEEPS = 50
 AT_REST = 1e-4  # m/s after a step: far less than the 2e-3 that gravity gives in one
-WALL = 1e-3  # least part of gravity that must press for a ball to come to rest on a surface
 
 
 @kernel
@@ -40,19 +37,13 @@ def caught_step(ball):
     return min(CAUGHT_STEP, sqrt(2.0 * SINK / max(greatest_acceleration(ball), 1e-3)))
 
 
-@kernel
-def presses(land, ball, normal):
-    """Whether gravity presses the ball against what has `normal`, rather than lets it lean on it."""
-    weight = pull(land.effects, vector(ball['position']))
-    return -dot(weight, normal) > WALL * length(weight)
-
-
 @shared
-def hold(land, ball, i, now, crowd):
+def hold(land, balls, i, now, crowd):
     """Let what ball `i` touches hold it. Writes position, motion, phase and contact.
 
     A ball left with one surface to lie on, or none, is caught no more.
     """
+    ball = balls[i]
     put(crowd.before[i, 0:3], vector(ball['velocity']))
     put(crowd.before[i, 3:6], vector(ball['spin']))
     crowd.count[CONTACTS] = 0
@@ -65,39 +56,22 @@ def hold(land, ball, i, now, crowd):
         if shift_once(crowd, sweep % 2 == 1) <= TOUCH:
             break
     put(ball['position'], add(vector(ball['position']), vector(crowd.flow[i])))
-    braking = stand(land, ball, crowd)
-    speed = length(vector(crowd.before[i, 0:3]))
-    left = max(speed - braking, 0.0)
-    share = left / speed if speed > 0.0 else 1.0
-    put(ball['velocity'], scale(share, vector(crowd.before[i, 0:3])))
-    put(ball['spin'], scale(share, vector(crowd.before[i, 3:6])))
-    surfaces = crowd.count[CONTACTS]
+    follow(ball, crowd, i)
+    for n in range(crowd.count[CONTACTS]):
+        hold_up(land, balls, crowd.contacts[n])
+    left = max(length(vector(ball['velocity'])) - ball['braking'], 0.0)
+    slow_down(ball, left)
     ball['phase'] = FLIGHT
     # What is held does not hop: else the rounding of its rise would decide the next step's length.
-    ball['step'] = CAUGHT_STEP if surfaces > 0 else 0.0
+    ball['step'] = CAUGHT_STEP if ball['held'] > 0 else 0.0
     ball['rated'] = -1.0
-    if surfaces == 0:
+    if ball['held'] == 0:
         ball['stalled'] = 0
     elif left < AT_REST and ball['support'] != NO_PART:
         put(ball['velocity'], ZERO)
         put(ball['spin'], ZERO)
         ball['phase'] = REST
-    elif surfaces == 1 and ball['support'] != NO_PART:
+    elif ball['held'] == 1 and ball['support'] != NO_PART:
         ball['stalled'] = 0
         ball['phase'] = SLIDE
         settle(land, ball, now)
-
-
-@kernel
-def stand(land, ball, crowd):
-    """Let the ball stand on what presses most. Writes contact; returns what resistance takes [m/s]."""
-    put(ball['normal'], ZERO)
-    ball['support'] = NO_PART
-    braking = 0.0
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
-        normal = vector(row['normal'])
-        braking += row['shared'] * row['push']
-        if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
-            stand_on(land, ball, surface.support_of(land.ground, row['part']), normal)
-    return braking

@@ -3,7 +3,7 @@
 from . import together
 from ._compile import kernel, shared
 from .bump import WORTH_TELLING, collide, scatter
-from .caught import STALL, hold, is_caught, presses
+from .caught import STALL, hold, is_caught
 from .contact import heading, material_number, material_of, settle, stand_on
 from .crowd import MEMBERS
 from .effects import felt_normal, pull
@@ -12,6 +12,7 @@ from .impulse import Bond, impulse, take
 from .material import lasting_restitution, restitution
 from .motion import STILL
 from .pile import leave
+from .pressing import presses
 from .shot import note_landing
 from .state import BOUNCE, FLIGHT, SLIDE, next_event
 from .vector import ZERO, along, dot, length, put, scale, sub, vector
@@ -65,7 +66,7 @@ def meet(land, balls, i, now, crowd, log):
     if ball['piled']:
         leave(ball)
     elif is_caught(ball):
-        hold(land, ball, i, now, crowd)
+        hold(land, balls, i, now, crowd)
 
 
 @kernel

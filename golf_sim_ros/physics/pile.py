@@ -13,16 +13,16 @@ from math import floor
 
 from . import others
 from ._compile import kernel, shared
-from .caught import MANY_STALLS, is_caught, presses
-from .contact import settle, stand_on
+from .caught import MANY_STALLS, is_caught
+from .contact import settle
 from .crowd import CONTACTS, MEMBERS, Crowd, next_node
 from .detect import PILE_NEAR
 from .effects import pull
 from .ground import surface
 from .pair import place_at
 from .path import lay
-from .pressing import (PILE_STEP, ball_contact, closing, far_reach, ground_contacts, neighbours,
-                       part_overlaps, press)
+from .pressing import (PILE_STEP, ball_contact, closing, far_reach, follow, ground_contacts, hold_up,
+                       neighbours, part_overlaps, press, slow_down)
 from .state import FLIGHT, HOLED, JOINED, NO_PART, PILED, REST, SLIDE
 from .together import bring, enlist
 from .vector import ZERO, along, length, put, scale, sub, vector
@@ -136,13 +136,7 @@ def hold_pile(land, balls, now, crowd):
     part_overlaps(balls, crowd)
     press(land, balls, crowd)
     for k in range(crowd.count[MEMBERS]):
-        ball = balls[crowd.members[k]]
-        put(ball['velocity'], vector(crowd.before[crowd.members[k], 0:3]))
-        put(ball['spin'], vector(crowd.before[crowd.members[k], 3:6]))
-        ball['braking'] = 0.0
-        ball['held'] = 0
-        put(ball['normal'], ZERO)
-        ball['support'] = NO_PART
+        follow(balls[crowd.members[k]], crowd, crowd.members[k])
     for n in range(crowd.count[CONTACTS]):
         hold_up(land, balls, crowd.contacts[n])
     for k in range(crowd.count[MEMBERS]):
@@ -188,33 +182,13 @@ def find_contacts(land, balls, crowd, now):
 
 
 @kernel
-def hold_up(land, balls, row):
-    """Let a contact that presses hold its balls. Writes held, braking, and what they stand on."""
-    if row['push'] <= 0.0 and row['ahead'] > PILE_NEAR:
-        return
-    ball = balls[row['a']]
-    normal = vector(row['normal'])
-    if row['part'] < 0:
-        ball['held'] += 2
-        if row['b'] >= 0:
-            balls[row['b']]['held'] += 2
-        return
-    ball['held'] += 1
-    ball['braking'] += row['shared'] * row['push']
-    if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
-        stand_on(land, ball, surface.support_of(land.ground, row['part']), normal)
-
-
-@kernel
 def let_go(land, ball, now):
     """Let a member rest, roll away, fly away, or stay in the pile. Writes motion and phase."""
     speed = length(vector(ball['velocity']))
     left = max(speed - ball['braking'], 0.0)
     if left < CREEP and ball['held'] > 1:
         left *= DAMPED
-    if speed > 0.0:
-        put(ball['velocity'], scale(left / speed, vector(ball['velocity'])))
-        put(ball['spin'], scale(left / speed, vector(ball['spin'])))
+    slow_down(ball, left)
     turning = land.ball.radius * length(vector(ball['spin']))
     ball['calm'] = ball['calm'] + 1 if left + turning < CALM and ball['held'] > 0 else 0
     ball['phase'] = FLIGHT

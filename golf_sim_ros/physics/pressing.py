@@ -7,12 +7,13 @@ overlaps at the next instant. Projected Gauss-Seidel finds the impulses, beginni
 before. Velocities here are those half-way through a step (leapfrog), and impulses are per mass.
 """
 from ._compile import kernel, shared
-from .contact import material_of
+from .contact import material_of, stand_on
 from .crowd import CONTACTS, MEMBERS, NEIGHBOURS, next_node
 from .detect import PILE_NEAR
+from .effects import pull
 from .ground import surface
 from .pair import UP, place_at, velocity_at
-from .state import HOLED, REMEMBERED, moves
+from .state import HOLED, NO_PART, REMEMBERED, moves
 from .together import is_new, new_contact
 from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, tangential, unit, vector
 
@@ -21,6 +22,7 @@ SWEEPS = 40
 DONE = 2e-5  # m/s: a sweep that changes less is the last
 SHIFTS = 10
 OVERLAP = 1e-7  # m: more is pushed apart
+WALL = 1e-3  # least part of gravity that must press for a ball to come to rest on a surface
 
 
 @kernel
@@ -247,3 +249,48 @@ def press(land, balls, crowd):
         if press_once(land, crowd, sweep % 2 == 1) <= DONE:
             break
     keep(balls, crowd)
+
+
+@kernel
+def follow(ball, crowd, i):
+    """Give member `i` its solved motion, and nothing to stand on yet. Writes motion, held and contact."""
+    put(ball['velocity'], vector(crowd.before[i, 0:3]))
+    put(ball['spin'], vector(crowd.before[i, 3:6]))
+    ball['braking'] = 0.0
+    ball['held'] = 0
+    put(ball['normal'], ZERO)
+    ball['support'] = NO_PART
+
+
+@kernel
+def presses(land, ball, normal):
+    """Whether gravity presses the ball against what has `normal`, rather than lets it lean on it."""
+    weight = pull(land.effects, vector(ball['position']))
+    return -dot(weight, normal) > WALL * length(weight)
+
+
+@kernel
+def hold_up(land, balls, row):
+    """Let a contact that presses hold its balls. Writes held, braking, and what they stand on."""
+    if row['push'] <= 0.0 and row['ahead'] > PILE_NEAR:
+        return
+    ball = balls[row['a']]
+    normal = vector(row['normal'])
+    if row['part'] < 0:
+        ball['held'] += 2
+        if row['b'] >= 0:
+            balls[row['b']]['held'] += 2
+        return
+    ball['held'] += 1
+    ball['braking'] += row['shared'] * row['push']
+    if presses(land, ball, normal) and normal[2] > ball['normal'][2]:
+        stand_on(land, ball, surface.support_of(land.ground, row['part']), normal)
+
+
+@kernel
+def slow_down(ball, speed):
+    """Leave the ball a `speed` [m/s], and as much of its spin. Writes motion."""
+    before = length(vector(ball['velocity']))
+    if before > 0.0:
+        put(ball['velocity'], scale(speed / before, vector(ball['velocity'])))
+        put(ball['spin'], scale(speed / before, vector(ball['spin'])))
