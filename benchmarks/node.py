@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""`sim_node` in a process of its own, balls in flight all the time: its share of a core, and its pace."""
+"""`sim_node` in a process of its own, balls in flight all the time: its share of a core, and its pace.
+
+Somebody listens to the balls' poses: what nobody listens to is not made.
+"""
 import json
 import os
 from pathlib import Path
@@ -60,14 +63,14 @@ def figures(name, seconds, balls, most=float('inf'), **parameters):
 def watched(sim, balls, seconds):
     """Share of a core [%] of a process `sim`, mean real-time factor, ticks made up, while its balls fly."""
     from diagnostic_msgs.msg import DiagnosticArray
-    from geometry_msgs.msg import Twist
+    from geometry_msgs.msg import PoseStamped, Twist
     import rclpy
     from rclpy.qos import QoSProfile
     from std_msgs.msg import String
     rclpy.init()
     node = rclpy.create_node('golfer')
     clubs = {ball: node.create_publisher(Twist, f'{ball}/shot', 10) for ball in balls}
-    told = []
+    told, seen = [], []
 
     def strike(ball):
         shot = Twist()
@@ -77,6 +80,8 @@ def watched(sim, balls, seconds):
     def note(message):
         told.append({pair.key: pair.value for status in message.status for pair in status.values})
 
+    for ball in balls:
+        node.create_subscription(PoseStamped, f'{ball}/pose', seen.append, 10)
     node.create_subscription(DiagnosticArray, '/diagnostics', note, 10)
     node.create_subscription(String, 'shot/result', lambda m: strike(json.loads(m.data)['ball']),
                              QoSProfile(depth=100))

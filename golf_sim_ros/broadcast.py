@@ -73,18 +73,23 @@ class Broadcast:
             self.next_clock = now + CLOCK_PERIOD
             self.clock.publish(Clock(clock=self.head(self.world.time).stamp))
 
-    def tell_ball(self, name, orientation):
-        """Pose and twist of a ball."""
-        head, ball = self.head(self.world.time), self.world[name]
-        self.poses[name].publish(messages.pose(head, ball, orientation))
-        self.twists[name].publish(messages.twist(head, ball))
+    def tell_balls(self, names, orientations):
+        """Poses and twists of balls."""
+        head = self.head(self.world.time)
+        for name in names:
+            pose, twist = self.poses[name], self.twists[name]
+            if heard(pose):
+                pose.publish(messages.pose(head, self.world[name], orientations[name]))
+            if heard(twist):
+                twist.publish(messages.twist(head, self.world[name]))
 
     def tell_collision(self, collision):
         """A contact, as JSON and as a point."""
         self.collisions.publish(messages.collision_json(collision))
         both = [collision.ball] + [collision.with_] * (collision.kind == 'ball')
         for name in both:
-            self.contacts[name].publish(messages.contact(self.head(collision.time), collision))
+            if heard(self.contacts[name]):
+                self.contacts[name].publish(messages.contact(self.head(collision.time), collision))
         self.scene.contacts.append(collision.position)
 
     def tell_entry(self, text):
@@ -101,7 +106,8 @@ class Broadcast:
 
     def tell_scene(self, wind):
         """Markers of the play."""
-        self.play.publish(self.scene.markers(self.head(self.world.time), self.world, wind))
+        if heard(self.play):
+            self.play.publish(self.scene.markers(self.head(self.world.time), self.world, wind))
 
     def tell_course(self):
         """Markers of the course."""
@@ -112,6 +118,11 @@ class Broadcast:
         now = self.node.get_clock().now().to_msg()
         name = f'{self.node.get_fully_qualified_name()}: play'
         self.diagnostics.publish(diagnostic(now, name, slow, values))
+
+
+def heard(publisher):
+    """Whether anybody listens; if not, a message of which nothing is kept need not be made."""
+    return publisher.get_subscription_count() > 0
 
 
 def on_match(callback):

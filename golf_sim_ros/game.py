@@ -2,12 +2,14 @@
 """The game in time: what arrives is applied between ticks, what happens is told."""
 from time import perf_counter
 
+import numpy as np
+
 from . import account, messages
 from .diagnosis import Diagnosis, SLOW
 from .journal import Journal
-from .orientation import turned, UPRIGHT
 from .pace import Pace
 from .physics import Rejected, Result
+from .physics.orientation import UPRIGHT
 
 CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
 REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
@@ -47,7 +49,9 @@ class Game:
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
         self.paused = False
-        self.orientations = dict.fromkeys(world.names, UPRIGHT)
+        self.turned = np.tile(UPRIGHT, (len(world.names), 1))
+        world.turn(self.turned, 0.0)  # compiles: no tick shall wait for that
+        self.orientations = dict(zip(world.names, self.turned))
         self.awake = set()  # balls whose pose was still changing when last told
         self.course_due = self.all_due = True
 
@@ -93,8 +97,7 @@ class Game:
         events = self.world.advance(self.pace.tick)
         self.ticks += 1
         self.diagnosis.note_tick(perf_counter() - began)
-        for name in self.world.in_motion:
-            self.orientations[name] = turned(self.orientations[name], self.world[name].spin, self.pace.tick)
+        self.world.turn(self.turned, self.pace.tick)
         if events:
             with self.diagnosis.publishing():
                 self.tell_events(events)
@@ -152,8 +155,8 @@ class Game:
         self.journal.note('reset', self.ticks)
         for result in aborted:
             self.finish(result)
+        self.turned[:] = UPRIGHT
         for name in self.world.names:
-            self.orientations[name] = UPRIGHT
             self.broadcast.scene.trails[name].clear()
         self.all_due = True
 
@@ -192,8 +195,7 @@ class Game:
         """The time, and balls that move or have just stopped."""
         moving = set(self.world.in_motion)
         self.broadcast.tell_time()
-        for name in self.world.names if all_of_them else moving | self.awake:
-            self.broadcast.tell_ball(name, self.orientations[name])
+        self.broadcast.tell_balls(self.world.names if all_of_them else moving | self.awake, self.orientations)
         for name in moving:
             self.broadcast.scene.trails[name].add(self.world[name].position)
         self.awake = moving

@@ -7,7 +7,8 @@ from visualization_msgs.msg import Marker, MarkerArray
 from .markers import marker, points, put
 from .physics import ground_height
 
-TRAIL = 300  # points of a trail, at most
+TRAIL, TRAILS = 300, 3000  # points at most of a trail, and of all
+LEAST = 20  # points that every trail may have
 CONTACTS = 20  # last contacts that are shown
 TRAIL_WIDTH, CONTACT_SIZE = 0.05, 0.15  # m
 ARROW = (0.15, 0.4, 0.5)  # m: diameters of shaft and head, length of the head
@@ -16,12 +17,13 @@ BALL, PATH, HIT, AIR = (1.0, 1.0, 1.0), (1.0, 0.9, 0.2), (0.9, 0.3, 0.1), (0.3, 
 
 
 class Trail:
-    """Places where a ball was since it was struck, at most `TRAIL`, evenly spread over its way.
+    """Places where a ball was since it was struck, at most `most`, evenly spread over its way.
 
     When full, every other place is dropped and from then on half as many are taken.
     """
 
-    def __init__(self):
+    def __init__(self, most):
+        self.most = most
         self.clear()
 
     def clear(self):
@@ -35,7 +37,7 @@ class Trail:
         if self.seen % self.every == 0:
             self.places.append(tuple(place))
         self.seen += 1
-        if len(self.places) >= TRAIL:
+        if len(self.places) >= self.most:
             self.places = self.places[::2]
             self.every *= 2
 
@@ -44,7 +46,8 @@ class Scene:
     """What is remembered of the play in `world` to draw it."""
 
     def __init__(self, world):
-        self.trails = {name: Trail() for name in world.names}
+        most = max(LEAST, min(TRAIL, TRAILS // len(world.names)))
+        self.trails = {name: Trail(most) for name in world.names}
         self.contacts = deque(maxlen=CONTACTS)
         self.size = 2 * world.course.ball.radius
         x, y = world.course.tee

@@ -12,6 +12,7 @@ from .accuracy import preset
 from .advance import LOG_FULL, STAGES, advance
 from .crowd import AGE, scratch
 from .ground import surface
+from .orientation import turn
 from .piece import LONGEST_SHOT, put_down
 from .report import KINDS, collision, objection, result, three
 from .shot import tee_off
@@ -65,6 +66,7 @@ class World:
     def __init__(self, course, balls=('ball',), effects='auto', accuracy='standard', wind=ZERO):
         self.course = course
         self.names = checked_names(balls)
+        self._numbers = {name: number for number, name in enumerate(self.names)}
         self.time = 0.0
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
         self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
@@ -161,10 +163,17 @@ class World:
         return BallState(three(ball['position']), three(ball['velocity']), three(ball['spin']),
                          PHASES[ball['phase']], self._lie(ball))
 
+    def turn(self, orientations, time):
+        """Turn `orientations`, (n, 4), the balls' quaternions x, y, z, w, as balls turn in `time` [s]."""
+        turn(orientations, self._balls, time)
+
     def _ball(self, name):
-        if name not in self.names:
+        return self._balls[self._number(name)]
+
+    def _number(self, name):
+        if name not in self._numbers:
             raise ValueError(f'ball {name!r} is unknown; known: {", ".join(self.names)}')
-        return self._balls[self.names.index(name)]
+        return self._numbers[name]
 
     def _lie(self, ball):
         if ball['phase'] == FLIGHT or ball['support'] < 0:
@@ -181,7 +190,8 @@ class World:
         ValueError
             Not finite, no ground at (x, y), inside the ground or another ball, or in water.
         """
-        ball = self._ball(name)
+        number = self._number(name)
+        ball = self._balls[number]
         position = tuple(map(float, position))
         velocity = ZERO if velocity is None else tuple(map(float, velocity))
         spin = ZERO if spin is None else tuple(map(float, spin))
@@ -189,10 +199,10 @@ class World:
             raise ValueError(f'position {position}, velocity {velocity} or spin {spin} is not finite')
         trial = ball.copy()
         self._put_down(trial, position)
-        if not self._is_free(self.names.index(name), three(trial['position'])):
+        if not self._is_free(number, three(trial['position'])):
             raise ValueError(f'position {position} is taken by another ball')
         self._settle_clock()
-        self._balls[self.names.index(name)] = trial
+        self._balls[number] = trial
         ball['playing'] = ball['knocked'] = 0
         self._set_off(ball, velocity, spin)
 
@@ -399,8 +409,8 @@ def spots(place, radius):
     x, y, z = place
     yield x, y, z, 0.0
     for ring in range(1, 20):
-        for turn in range(6 * ring):
-            angle = turn * pi / (3 * ring)
+        for step in range(6 * ring):
+            angle = step * pi / (3 * ring)
             away = CLEAR * radius * ring
             yield x - away * cos(angle), y + away * sin(angle), z, 2.0 * radius
 

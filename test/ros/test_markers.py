@@ -212,7 +212,7 @@ def test_the_tee_stands_on_the_ground_on_both_sides_of_the_ball(course):
 
 
 def test_a_trail_keeps_few_points_spread_over_the_whole_way():
-    trail = Trail()
+    trail = Trail(TRAIL)
     for i in range(100000):
         trail.add((i, 0.0, 0.0))
         assert len(trail.places) < TRAIL

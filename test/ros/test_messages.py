@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Messages say what the records say, and JSON keeps its order and rounding."""
 import json
-from math import cos, inf, nan, pi, sin
+from math import inf, nan
 
-from hypothesis import given, strategies
 import pytest
 
 from golf_sim_ros import account, messages
-from golf_sim_ros.orientation import turned, UPRIGHT
 from golf_sim_ros.physics import Collision, Result
 
 RESULT = Result(
@@ -53,25 +51,6 @@ def test_a_collision_is_told_in_full_precision():
 def test_a_stamp_is_the_start_plus_simulated_time_to_the_nanosecond():
     stamp = messages.header('course', 1_700_000_000_900_000_000, 0.104).stamp
     assert (stamp.sec, stamp.nanosec) == (1_700_000_001, 4_000_000)
-
-
-def test_a_quarter_turn_about_z_then_about_x_is_their_product():
-    half = sin(pi / 4)
-    once = turned(UPRIGHT, (0.0, 0.0, pi), 0.5)
-    assert once == pytest.approx((0.0, 0.0, half, half))
-    assert turned(once, (pi, 0.0, 0.0), 0.5) == pytest.approx((0.5, -0.5, 0.5, 0.5))
-
-
-@given(strategies.floats(-3.0, 3.0), strategies.integers(1, 50))
-def test_many_small_turns_about_one_axis_are_one_large_turn(rate, parts):
-    orientation = UPRIGHT
-    for _ in range(parts):
-        orientation = turned(orientation, (0.0, rate, 0.0), 1.0 / parts)
-    assert orientation == pytest.approx((0.0, sin(rate / 2), 0.0, cos(rate / 2)), abs=1e-12)
-
-
-def test_a_ball_that_does_not_spin_does_not_turn():
-    assert turned((0.6, 0.0, 0.0, 0.8), (0.0, 0.0, 0.0), 1.0) == (0.6, 0.0, 0.0, 0.8)
 
 
 def test_the_log_tells_a_drive_as_a_player_would():
