@@ -176,6 +176,7 @@ def look_out(balls, i, radius, now, crowd):
             ball['ending'] = MEETING if hit else STEP
             ball['target'] = other
             crowd.ends[i] = time
+            others.note(crowd, balls, i, radius)
     elif ball['phase'] == REST:
         others.stand_in_the_way(crowd, balls, i, radius, now)
 

@@ -82,7 +82,7 @@ def _prepare(crowd, balls, radius):
 def box_of(ball, radius, room):
     """Box of the ball's piece, with `room` around it."""
     if moves(ball['phase']) and ball['piled'] != PILED:
-        return box(ball, 0.0, ball['span'], radius + room)
+        return box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
     half = (radius + room, radius + room, radius + room)
     here = vector(ball['origin']) if moves(ball['phase']) else vector(ball['position'])
     there = along(here, 1.0, vector(ball['path'][5])) if moves(ball['phase']) else here

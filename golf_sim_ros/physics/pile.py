@@ -104,10 +104,8 @@ def _lean(crowd, land, balls, i, now):
 
 @others.rouse.register(Crowd)
 def _rouse(crowd, balls, radius, now):
-    k = 0
-    while k < crowd.count[MEMBERS]:
+    for k in range(crowd.count[MEMBERS]):
         i = crowd.members[k]
-        k += 1
         if balls[i]['phase'] == REST:
             continue
         here = vector(balls[i]['position'])
