@@ -80,13 +80,6 @@ def three(row):
     return tuple(row.tolist())
 
 
-def collision(event, time, ball, kind, other):
-    """`Collision` of a logged impact with `other`, a material or ball."""
-    names = ('position', 'normal', 'velocity_before', 'velocity_after', 'spin_before', 'spin_after',
-             'impulse')
-    return Collision(time, ball, kind, other, *(three(event[name]) for name in names))
-
-
 def summary(balls, hole, lies):
     """Figures of ended shots, a structured array with the fields of `Result`.
 
@@ -100,7 +93,7 @@ def summary(balls, hole, lies):
     told['status'] = np.where(balls['over_time'], OVER_TIME, ENDED_AS[balls['phase']])
     told['carry'], told['carry_side'] = np.where(landed, way(balls, 'landed_at'), 0.0)
     told['total'], told['side'] = way(balls, 'position')
-    told['apex'] = np.where(landed | np.isin(balls['phase'], (Phase.FLIGHT, Phase.OUT)),
+    told['apex'] = np.where(landed | (balls['phase'] == Phase.FLIGHT) | (balls['phase'] == Phase.OUT),
                             balls['highest'] - balls['struck_at'][:, 2], 0.0)
     told['flight_time'] = np.where(landed, balls['landing'] - balls['struck'], 0.0)
     told['duration'] = balls['ended'] - balls['struck']

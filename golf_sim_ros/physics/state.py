@@ -108,6 +108,7 @@ BOUNCE, SHOT_ENDS, BUMP, LOST, WET, GONE = range(6)
 # Of a BUMP `material` is the number of the other ball.
 EVENT = np.dtype([
     ('time', 'f8'), ('ball', 'i8'), ('kind', 'i8'), ('material', 'i8'), ('sort', 'i8'),
+    # the vectors of a `Collision`, in its order
     ('position', 'f8', 3), ('normal', 'f8', 3),
     ('velocity_before', 'f8', 3), ('velocity_after', 'f8', 3),
     ('spin_before', 'f8', 3), ('spin_after', 'f8', 3), ('impulse', 'f8', 3),

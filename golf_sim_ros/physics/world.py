@@ -14,9 +14,9 @@ from .crowd import AGE, scratch
 from .ground import surface
 from .orientation import turn
 from .piece import LONGEST_SHOT, put_down
-from .report import KINDS, collision, objection, result, three
+from .report import KINDS, Collision, objection, result, three
 from .shot import tee_off
-from .state import (BALL, BOUNCE, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
+from .state import (BALL, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
                     SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, new_log, plain, restored)
 from .vector import ZERO
 
@@ -310,25 +310,26 @@ class World:
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
         events = []
-        for event in self._log.events[:self._log.count[0]]:
-            ball, name = self._balls[event['ball']], self.names[event['ball']]
-            time = start + float(event['time'])
-            if event['kind'] == BOUNCE:
-                events.append(collision(event, time, name, KINDS[event['sort']],
-                                        self._materials[event['material']]))
-            elif event['kind'] == BUMP:
-                events.append(collision(event, time, name, 'ball', self.names[event['material']]))
-            elif event['kind'] == WET:
-                events.append(collision(event, time, name, 'water', 'water'))
-            elif event['kind'] == GONE:
-                lie = self._materials[event['material']] if event['material'] >= 0 else ''
-                events.append(collision(event, time, name, 'out_of_bounds', lie))
-            elif event['kind'] == SHOT_ENDS:
-                events.append(result(ball, name, time, self.course.hole, self._materials))
-            if event['kind'] == LOST or event['kind'] == SHOT_ENDS and ball['phase'] in (WATER, OUT):
-                self._lost.append(int(event['ball']))
+        for time, number, kind, other, sort, *vectors in self._log.events[:self._log.count[0]].tolist():
+            ball, name = self._balls[number], self.names[number]
+            if kind == SHOT_ENDS:
+                events.append(result(ball, name, start + time, self.course.hole, self._materials))
+            elif kind != LOST:
+                what = self._hit(kind, other, sort)
+                events.append(Collision(start + time, name, *what, *map(tuple, vectors)))
+            if kind == LOST or kind == SHOT_ENDS and ball['phase'] in (WATER, OUT):
+                self._lost.append(number)
         self._log.count[0] = 0
         return events
+
+    def _hit(self, kind, other, sort):
+        """Kind of a logged collision, and name of the material or ball that was hit."""
+        if kind == BUMP:
+            return 'ball', self.names[other]
+        if kind == WET:
+            return 'water', 'water'
+        lie = self._materials[other] if other >= 0 else ''
+        return ('out_of_bounds' if kind == GONE else KINDS[sort]), lie
 
     def _drop(self, number, now):
         """Put a lost ball back where it was struck, or beside a ball that lies there by `now`.
