@@ -5,7 +5,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
-from .state import Phase
+from .state import Phase, plain_rows
 
 
 class Collision(NamedTuple):
@@ -119,9 +119,7 @@ def way(balls, end):
 
 def result(ball, name, time, hole, lies):
     """`Result` of the shot of a `ball` record, which ended at the world's `time`."""
-    told = summary(ball[np.newaxis], hole, lies)[0]
-    figures = {key: three(told[key]) if told[key].shape else told[key].item()
-               for key in SUMMARY.names}
+    figures = dict(zip(SUMMARY.names, *plain_rows(summary(ball[np.newaxis], hole, lies))))
     figures['to_hole'] = None if hole is None else figures['to_hole']
     return Result(shot=int(ball['shot']), ball=name, time=time, **figures)
 

@@ -5,6 +5,7 @@ A ball's path is a chain of pieces. A piece ends at an event or at an integrator
 tick; ticks read it. Times are seconds on the world's clock.
 """
 from enum import IntEnum
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -74,6 +75,8 @@ BALL = np.dtype([
     ('bounces', 'i8'), ('stalled', 'i8'), ('stuck', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
 ], align=True)
 
+TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
+
 # What is told of a ball whose shot has ended, by fields of the same names.
 ENDED = np.dtype([(name, BALL[name]) for name in (
     'phase', 'support', 'material', 'position', 'struck', 'struck_at', 'launch', 'launch_spin', 'highest',
@@ -91,6 +94,18 @@ def plain(ball):
     if not ball['piled']:
         names = [name for name in names if name not in PRESSED]
     return {name: ball[name].tolist() for name in names}
+
+
+def plain_rows(records):
+    """Rows of an array of records as tuples of numbers and texts, vectors as tuples of three."""
+    return records.view(with_triples(records.dtype)).tolist()
+
+
+@cache
+def with_triples(record):
+    """The dtype `record` with its vectors as records, which become tuples."""
+    return np.dtype([(name, TRIPLE if kind.shape else kind) for name, (kind, _) in record.fields.items()],
+                    align=record.isalignedstruct)
 
 
 def restored(values):

@@ -17,7 +17,7 @@ from .piece import LONGEST_SHOT, put_down
 from .report import KINDS, Collision, objection, result, three
 from .shot import tee_off
 from .state import (BALL, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
-                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, new_log, plain, restored)
+                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, new_log, plain, plain_rows, restored)
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
@@ -310,13 +310,13 @@ class World:
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
         events = []
-        for time, number, kind, other, sort, *vectors in self._log.events[:self._log.count[0]].tolist():
+        for time, number, kind, other, sort, *vectors in plain_rows(self._log.events[:self._log.count[0]]):
             ball, name = self._balls[number], self.names[number]
             if kind == SHOT_ENDS:
                 events.append(result(ball, name, start + time, self.course.hole, self._materials))
             elif kind != LOST:
                 what = self._hit(kind, other, sort)
-                events.append(Collision(start + time, name, *what, *map(tuple, vectors)))
+                events.append(Collision(start + time, name, *what, *vectors))
             if kind == LOST or kind == SHOT_ENDS and ball['phase'] in (WATER, OUT):
                 self._lost.append(number)
         self._log.count[0] = 0
