@@ -82,7 +82,7 @@ def test_an_effect_is_finite_and_repeatable(name, told):
 def asked(effect, flow, force):
     """What an effect says of a flying ball: acceleration, spin rate, longest step."""
     return (laws.acceleration(effect, flow), laws.spin_rate(effect, flow),
-            laws.longest_step(effect, flow, force))
+            laws.longest_step(effect, flow, force, 2.0))
 
 
 def said(name):

@@ -11,7 +11,7 @@ gets it only by name. Other packages add theirs with :func:`register_effect`.
 import importlib
 import inspect
 import pkgutil
-from math import inf
+
 from typing import Callable, NamedTuple, Optional
 
 from .._compile import kernel, literal_unroll
@@ -155,13 +155,15 @@ def sinking(effects, position, velocity):
 
 
 @kernel
-def longest_step(effects, ground, position, velocity, spin, force):
-    """Longest step [s] that can't overlook any effect, of a flying ball that `force` accelerates [m/s^2]."""
-    flow = meet_air(effects, ground, position, velocity, spin)
-    longest = inf
+def longest_step(effects, ground, state, force, wanted):
+    """Longest step [s], `wanted` at most, that can't overlook any effect.
+
+    Of a flying ball whose `state` is position, velocity and spin, and that `force` accelerates [m/s^2].
+    """
+    flow = meet_air(effects, ground, *state)
     for effect in literal_unroll(effects):
-        longest = min(longest, laws.longest_step(effect, flow, force))
-    return longest
+        wanted = laws.longest_step(effect, flow, force, wanted)
+    return wanted
 
 
 @kernel

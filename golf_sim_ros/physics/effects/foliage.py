@@ -45,13 +45,13 @@ def _acceleration(effect, flow):
 
 
 @laws.longest_step.register(Foliage)
-def _longest_step(effect, flow, force):
+def _longest_step(effect, flow, force, wanted):
     speed = length(flow.over_ground)
     way = inf
     for i in range(len(effect.bodies)):
         body = effect.bodies[i]
         way = min(way, max(clearance(body, flow.position), FINE * body['radius']))
-    return way / speed if speed > 0.0 else inf
+    return min(way / speed, wanted) if speed > 0.0 else wanted
 
 
 def leafy(course):

@@ -4,7 +4,7 @@
 Every effect is a record, a ``NamedTuple`` of floats: its type is chosen when the kernel compiles,
 its fields are free to change while running.
 """
-from math import inf, sqrt
+from math import sqrt
 from typing import NamedTuple
 
 from .._compile import generic, kernel
@@ -46,26 +46,33 @@ def spin_rate(effect, flow):
 
 
 @generic
-def longest_step(effect, flow, force):
-    """Longest step [s] that can't overlook `effect`, of a ball in `flow` that `force` accelerates."""
-    return inf
+def longest_step(effect, flow, force, wanted):
+    """Longest step [s], `wanted` at most, that can't overlook `effect`.
+
+    Of a ball in `flow` that `force` accelerates [m/s^2].
+    """
+    return wanted
 
 
 @kernel
-def passing(arrow, change, blunt):
+def passing(arrow, change, blunt, wanted):
     """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes through zero.
 
     A law that follows its direction turns about at once there, within `blunt` of its length. To first
-    order the arrow is shortest after `ahead`, and the law bends within `width` of that.
+    order the arrow is shortest after `ahead`, and the law bends within `width` of that. Where the step
+    that is `wanted` is no longer than half of the former or than the latter, it will do: told without
+    division and root, for that is the rule.
     """
     turning = dot(change, change)
-    ahead = -dot(arrow, change)
-    if ahead <= 0.0 or turning == 0.0:
-        return inf
-    ahead /= turning
-    shortest = max(dot(arrow, arrow) - turning * ahead * ahead, 0.0)
-    width = sqrt((shortest + blunt * blunt) / turning)
-    return max(0.5 * ahead, width, BRIEF)
+    closing = -dot(arrow, change)
+    off = dot(arrow, arrow)
+    least = wanted * turning
+    if (closing <= 0.0 or closing >= 2.0 * least
+            or (off + blunt * blunt) * turning - closing * closing >= least * least):
+        return wanted
+    ahead = closing / turning
+    width = sqrt((max(off - closing * ahead, 0.0) + blunt * blunt) / turning)
+    return min(max(0.5 * ahead, width, BRIEF), wanted)
 
 
 @generic

@@ -65,10 +65,10 @@ def _acceleration(effect, flow):
 
 
 @laws.longest_step.register(Magnus)
-def _longest_step(effect, flow, force):
+def _longest_step(effect, flow, force, wanted):
     # Lift turns about where the velocity sweeps past the axis of spin.
     blunt = effect.law.early_at * flow.speed * flow.speed / effect.radius
-    return laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt)
+    return laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
 
 
 def record(scene):

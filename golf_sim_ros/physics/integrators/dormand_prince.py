@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .._compile import kernel
 from . import runge_kutta
 
 TABLE = np.array([
@@ -48,20 +49,30 @@ def _first_step(method, speed, hop):
     # The error of a step goes with its fifth power. Air bends the path of a fast ball over a time that goes
     # with 1/speed, weight that of a slow one: a drive begins with 0.33 s for 5e-5 m, a ball that hops with
     # half a second. A little more than a hop takes: no more is used, and the air may carry it.
-    guess = min(175.0 / max(speed, 1.0), 3.5) * method.tolerance ** 0.2
-    return min(guess, 1.05 * hop + 1e-6, method.longest)
+    far = min(175.0 / max(speed, 1.0), 3.5)
+    short = 1.05 * hop + 1e-6
+    part = short / far
+    if part * part * part * part * part <= method.tolerance:
+        return min(short, method.longest)
+    return min(far * method.tolerance ** 0.2, method.longest)
+
+
+@kernel
+def allowed(method, flies):
+    """How far [m] a step may err."""
+    return method.tolerance if flies else min(ON_GROUND * method.tolerance, MOST_ON_GROUND)
+
+
+@runge_kutta.stands.register(DormandPrince)
+def _stands(method, h, error, flies):
+    # Nothing is gained below 1e-9 s; the world refuses what is not finite.
+    return error <= allowed(method, flies) or h < 1e-9 or not error < 1e300
 
 
 @runge_kutta.next_step.register(DormandPrince)
 def _next_step(method, h, error, flies):
-    allowed = method.tolerance if flies else min(ON_GROUND * method.tolerance, MOST_ON_GROUND)
-    ratio = error / allowed
-    if ratio <= 1.0:
-        grow = 0.9 * max(ratio, 1e-4) ** -0.2
-        return min(h * min(max(grow, 0.5), 4.0), method.longest), True
-    if h < 1e-9 or not error < 1e300:
-        return h, True  # nothing is gained below this; the world refuses what is not finite
-    return h * max(0.9 * ratio ** -0.2, 0.1), False
+    grow = 0.9 * max(error / allowed(method, flies), 1e-4) ** -0.2
+    return min(h * min(max(grow, 0.1), 4.0), method.longest)
 
 
 METHOD = DormandPrince

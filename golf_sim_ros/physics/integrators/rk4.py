@@ -32,7 +32,7 @@ def _first_step(method, speed, hop):
 
 @runge_kutta.next_step.register(RungeKutta4)
 def _next_step(method, h, error, flies):
-    return method.length, True  # however short an event has made this one
+    return method.length  # however short an event has made this one
 
 
 METHOD = RungeKutta4

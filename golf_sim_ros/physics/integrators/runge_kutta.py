@@ -43,12 +43,15 @@ def first_step(method, speed, hop):
 
 
 @generic
-def next_step(method, h, error, flies):
-    """Length of the next step, or of the same again, after one of `h` with an `error` in metres.
+def stands(method, h, error, flies):
+    """Whether a step of `h` with an `error` in metres may stand. The ball `flies`, or goes along the ground."""
+    return True
 
-    Also whether that step may stand. The ball `flies`, or goes along the ground.
-    """
-    return h, True
+
+@generic
+def next_step(method, h, error, flies):
+    """Length of the next step, or of the same again, after that one."""
+    return h
 
 
 @kernel
@@ -113,12 +116,12 @@ def start(model, ball, last):
 
 
 @kernel
-def longest(model, ball):
-    """Longest step [s] that can't overlook any effect. Reads the first stage."""
+def longest(model, ball, wanted):
+    """Longest step [s], `wanted` at most, that can't overlook any effect. Reads the first stage."""
     if ball['phase'] != FLIGHT:
-        return inf
-    return longest_step(model.effects, model.land.ground, vector(ball['position']), vector(ball['velocity']),
-                        vector(ball['spin']), vector(ball['stages'][0, 3:6]))
+        return wanted
+    state = vector(ball['position']), vector(ball['velocity']), vector(ball['spin'])
+    return longest_step(model.effects, model.land.ground, state, vector(ball['stages'][0, 3:6]), wanted)
 
 
 @kernel
@@ -145,20 +148,22 @@ def step(method, model, ball):
     last = len(rows) - 1
     start(model, ball, last)
     h = ball['step']
-    if h == 0.0:
+    begins = h == 0.0
+    if begins:
         h = first_step(method, airspeed(model, ball), hop(model, ball))
-    h = min(h, longest(model, ball))
+    h = longest(model, ball, h)
     flies = ball['phase'] == FLIGHT
     while True:
         change = NO_CHANGE
         for i in range(1, last + 1):
             change = mix(ball, rows[i], i, h)
             stage(model, ball, i, state_after(ball, change))
-        following, stands = next_step(method, h, error_in_metres(ball, weights, h), flies)
-        ball['step'] = following
-        if stands:
+        error = error_in_metres(ball, weights, h)
+        if stands(method, h, error, flies):
             break
-        h = following
+        h = next_step(method, h, error, flies)
+    # The first step is often the last: a root is spared.
+    ball['step'] = h if begins else next_step(method, h, error, flies)
     first = ball['stages'][0]
     final = ball['stages'][last]
     ball['span'] = h
