@@ -13,11 +13,11 @@ def keep_highest(ball):
     """Keep the greatest height that the ball reaches on its piece of flight. Writes highest."""
     if ball['phase'] != FLIGHT:
         return
+    if path.span_along(ball, 2)[1] <= ball['highest']:
+        return
     time = ball['end'] - ball['begin']
     start = path.position(ball, 0.0)[2]
     ball['highest'] = max(ball['highest'], max(start, path.position(ball, time)[2]))
-    if path.span_along(ball, 2)[1] <= ball['highest']:
-        return
     low = 0.0
     high = time
     rising = path.velocity(ball, low)[2]

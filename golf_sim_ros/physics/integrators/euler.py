@@ -18,7 +18,7 @@ class SemiImplicitEuler(NamedTuple):
 def _step(method, model, ball):
     h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
     runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
-    h = min(h, runge_kutta.longest(model, ball))
+    h = runge_kutta.longest(model, ball, h)
     rates = ball['stages'][0]
     force = vector(rates[3:6])
     torque = vector(rates[6:9])

@@ -44,7 +44,7 @@ def first_step(method, speed, hop):
 
 @generic
 def stands(method, h, error, flies):
-    """Whether a step of `h` with an `error` in metres may stand. The ball `flies`, or goes along the ground."""
+    """Whether a step of `h` with an `error` in metres may stand; a ball that `flies`, or is on the ground."""
     return True
 
 
