@@ -4,6 +4,7 @@ from . import others, together
 from ._compile import kernel, shared
 from .contact import settle
 from .crowd import CONTACTS, MEMBERS, Crowd
+from .detect import GENTLE
 from .motion import STILL
 from .pair import gap_between
 from .pile import leave, pile_up
@@ -12,7 +13,6 @@ from .vector import dot, length, put, vector
 
 STALL = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
 MANY_MEETINGS = 8
-GENTLE = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
 WORTH_TELLING = 0.1  # m/s of approach: slower contacts are not collisions
 
 
@@ -39,11 +39,12 @@ def meet_ball(land, balls, i, now, crowd, log):
     collide(land, balls, now, crowd, log)
     scatter(land, balls, now, crowd, 0)
     for ball in (balls[i], balls[j]):
+        if ball['piled']:
+            if rate <= -GENTLE:  # it hits on, and does not wait for the pile
+                leave(ball)
+            continue
         ball['stalled'] = ball['stalled'] + 1 if stalls else 0
-        joins = piled and rate > -GENTLE or ball['stalled'] > MANY_MEETINGS
-        if not joins and ball['piled']:
-            leave(ball)
-        if joins and moves(ball['phase']) and not ball['piled']:
+        if moves(ball['phase']) and (piled and rate > -GENTLE or ball['stalled'] > MANY_MEETINGS):
             pile_up(ball)
 
 

@@ -27,6 +27,7 @@ from .vector import add, along, dot, length, sub, vector
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
 NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
 PILE_NEAR = 5e-5  # m: the same in a pile, of balls too
+GENTLE = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
 SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 RISING = 1e-12  # m/s: more than the rounding error of a rate, and less than a nanosecond's acceleration
@@ -260,9 +261,14 @@ def is_passed(ground, part, ball, radius, foot, until, on):
 
 @kernel
 def holds(ground, part, ball, radius):
-    """Whether `part` holds the caught ball as its piece begins, and so is no obstacle to it."""
-    distance, _ = surface.nearest(ground, part, vector(ball['position']))
-    return distance - radius <= (PILE_NEAR if ball['piled'] else NEAR)
+    """Whether `part` holds the caught ball as its piece begins, and so is no obstacle to it.
+
+    One of a pile that another ball has just hit may be too fast to wait for the pile.
+    """
+    distance, normal = surface.nearest(ground, part, vector(ball['position']))
+    if not ball['piled']:
+        return distance - radius <= NEAR
+    return distance - radius <= PILE_NEAR and dot(normal, velocity(ball, 0.0)) > -GENTLE
 
 
 @kernel

@@ -23,7 +23,7 @@ from .pair import place_at
 from .path import lay
 from .pressing import (PILE_STEP, ball_contact, closing, far_reach, follow, ground_contacts, hold_up,
                        neighbours, part_overlaps, press, slow_down)
-from .state import FLIGHT, HOLED, JOINED, NO_PART, PILED, REST, SLIDE
+from .state import FLIGHT, HOLED, JOINED, NO_PART, PILED, REST, SLIDE, STEP
 from .together import bring, enlist
 from .vector import ZERO, along, length, put, scale, sub, vector
 
@@ -67,9 +67,10 @@ def leave(ball):
 
 @kernel
 def go_straight(ball, span):
-    """Lay a straight piece of `span` seconds. Writes the curve."""
+    """Lay a straight piece of `span` seconds. Writes curve and ending."""
     v = vector(ball['velocity'])
     ball['span'] = span
+    ball['ending'] = STEP
     put(ball['origin'], vector(ball['position']))
     put(ball['twist'][3], vector(ball['spin']))
     lay(ball, scale(span, v), (v, v), (ZERO, ZERO), (ZERO, ZERO))

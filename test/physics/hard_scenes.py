@@ -201,6 +201,32 @@ def heaped(ground, count, accuracy, rate):
     return overlap(world)
 
 
+def crammed(draws, accuracy, rate):
+    """Deepest [m] that balls of random towers which fall into a box get into each other, the floor or a wall.
+
+    Some of them hit others that lean on each other already.
+    """
+    deepest, random = 0.0, np.random.default_rng(5)
+    for _ in range(draws):
+        count, across = int(random.integers(15, 60)), int(random.integers(2, 5))
+        ball = Ball(restitution=random.choice((0.0, 0.3, 0.5, 0.8)), friction=random.choice((0.0, 0.3, 1.0)))
+        course = Course(box(0.5), tee=(0.0, 500.0), ball=ball, effects=BALLS)
+        world, apart = World(course, count, accuracy=accuracy), random.uniform(0.047, 0.07)
+        for k, name in enumerate(world.names):
+            place = apart * np.array((k % across - across // 2, k // across % across - across // 2, 0.0))
+            jitter = (*random.uniform(-2e-3, 2e-3, 2), 0.1 + (apart + 0.01) * (k // (across * across)))
+            world.place(name, place + jitter, velocity=(0.0, 0.0, 0.0))
+
+        def look(events):
+            nonlocal deepest
+            places = motion(world)[0]
+            out = max(RADIUS - places[:, 2].min(), np.abs(places[:, :2]).max() - 0.25 + RADIUS)
+            deepest = max(deepest, out, overlap(world))
+
+        run(world, 2.0, rate, look)
+    return deepest
+
+
 IN_A_BOWL = (Plane((0.0, 0.0, -1.0), material=FLOOR), Mesh(*bowl(radius=0.3, depth=0.15), FLOOR))
 
 
@@ -482,7 +508,9 @@ SCENES = {
         Scene('their overlap [m]', -1, 1e-4, of(heaped, IN_A_BOWL, 20)),
         Scene('60 balls poured into a box rest, and stay so, after [s]', 0, 20,
               of(rests_after, box(0.2), 60)),
-        Scene('their overlap [m]', -1, 1e-4, of(heaped, box(0.2), 60))),
+        Scene('their overlap [m]', -1, 1e-4, of(heaped, box(0.2), 60)),
+        Scene('12 random towers fall into a box: deepest in anything on the way [m]', 0, 2.5e-4,
+              of(crammed, 12))),
     'Rest': (
         Scene('V groove of 45 degrees: speed [m/s]', 0, CREEPING, of(groove, 45)),
         Scene('groove of 80 degrees', 0, CREEPING, of(groove, 80)),
