@@ -11,6 +11,7 @@ from ._compile import stamp
 from .accuracy import preset
 from .advance import LOG_FULL, STAGES, advance
 from .crowd import AGE, scratch
+from .detect import PILE_NEAR
 from .ground import surface
 from .orientation import turn
 from .piece import LONGEST_SHOT, put_down
@@ -202,9 +203,19 @@ class World:
         if not self._is_free(number, three(trial['position'])):
             raise ValueError(f'position {position} is taken by another ball')
         self._settle_clock()
+        self._let_lean_no_more(number)
         self._balls[number] = trial
         ball['playing'] = ball['knocked'] = 0
         self._set_off(ball, velocity, spin)
+
+    def _let_lean_no_more(self, number):
+        """Let the balls set off that lean on one at rest: it is taken away."""
+        balls = self._balls
+        apart = np.linalg.norm(balls['position'] - balls['position'][number], axis=1)
+        leaning = (balls['phase'] == REST) & (balls['leans'] != 0) & (
+            apart <= 2.0 * (self._model.land.ball.radius + PILE_NEAR))
+        leaning[number] = False
+        balls['end'][leaning], balls['ending'][leaning] = self._now, LAUNCH
 
     def _put_down(self, ball, position):
         depth = 0.0

@@ -257,6 +257,25 @@ def test_balls_poured_into_a_box_come_to_rest_within_20_s_without_overlap_and_st
     assert np.array_equal(motion(world, world.names)[0], places)
 
 
+@pytest.mark.parametrize('taken', ['placed', 'struck'])
+def test_a_ball_on_three_falls_when_one_of_them_is_taken_away(taken):
+    floor = Material('rough', Restitution(0.3), 0.0, 0.9, 0.9, 0.05)
+    course = Course((Plane(material=floor),), tee=(0.0, 500.0), ball=Ball(restitution=0.3, friction=0.9),
+                    effects=('gravity', 'ball_ball'))
+    world, apart = World(course, ('a', 'b', 'c', 'top')), 2.0002 * RADIUS
+    for name, turn in zip('abc', np.arange(3) * 2 * np.pi / 3):
+        world.place(name, apart / np.sqrt(3) * np.array((np.cos(turn), np.sin(turn))))
+    world.place('top', (0.0, 0.0, RADIUS + np.sqrt(2 / 3) * apart + 1e-3), velocity=(0.0, 0.0, 0.0))
+    world.advance(5.0)
+    assert not world.moving and world['top'].position[2] > 2.5 * RADIUS
+    if taken == 'placed':
+        world.place('a', (3.0, 0.0))
+    else:
+        world.strike('a', (5.0, 0.0, 1.0))
+    world.advance(20.0)
+    assert not world.moving and world['top'].position[2] == pytest.approx(RADIUS, abs=1e-6)
+
+
 def test_a_pile_goes_on_from_its_state_to_the_bit():
     worlds = [poured(IN_A_BOWL, 20, 'standard') for _ in range(2)]
     worlds[0].advance(0.6)
