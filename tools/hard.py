@@ -3,7 +3,7 @@
 
 The cases are those of test/physics/hard_cases, which say what is expected; `make test` plays each once.
 With them come those of hard_scenes.py, and random shots at what nothing may pass: so many at each target
-at each rate with `standard` as `--shots` says (100,000), fewer with the others. Each part can be played
+at each rate as `--shots` says (100,000), a tenth of that with `reference`. Each part can be played
 alone, and the page then shows it beside what the others gave last.
 """
 import argparse
@@ -23,8 +23,8 @@ from test_hard_cases import CASES, play, start  # noqa: E402
 
 BUILD = ROOT / 'build' / 'hard'
 RATES = (50, 250, 1000)  # Hz
-SHOTS = 100_000  # at each target, at each rate, with `standard`
-SHARES = {'sketch': 10, 'standard': 1, 'reference': 100}  # of them with the others: one in so many
+SHOTS = 100_000  # at each target, at each rate
+SHARES = {'sketch': 1, 'standard': 1, 'reference': 10}  # of them with each preset: one in so many
 HEAD = """\
 # Hard cases
 
@@ -76,9 +76,8 @@ def passed(count):
     """Table of how many of `count` shots passed each target, and how deep any ball got into it."""
     lines = ['', '## Nothing is passed', '',
              f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within',
-             '2 m, every fourth grazing), at each of the three rates, with `standard`, of',
-             f'{count // 10:,} with `sketch` and of {count // 100:,} with `reference`, so many',
-             'passed through.',
+             '2 m, every fourth grazing), at each of the three rates, of',
+             f'{count // SHARES["reference"]:,} with `reference`, so many passed through.',
              'In brackets: how deep any ball was found in it, at any tick [m]. Expected: 0, and no deeper',
              'than 2e-6 m and five times what a preset lets a path be off.', '',
              '| target | ' + ' | '.join(ACCURACY) + ' |', '|---|' + '---|' * len(ACCURACY)]
