@@ -50,8 +50,7 @@ class Game:
         self.wind = self.blowing = (0.0, 0.0, 0.0)
         self.paused = False
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
-        world.turn(self.turned, 0.0)  # compiles: no tick shall wait for that
-        self.orientations = dict(zip(world.names, self.turned))
+        self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
         self.awake = set()  # balls whose pose was still changing when last told
         self.course_due = self.all_due = True
 

@@ -7,8 +7,8 @@ from visualization_msgs.msg import Marker, MarkerArray
 from .markers import marker, points, put
 from .physics import ground_height
 
-TRAIL, TRAILS = 300, 3000  # points at most of a trail, and of all
-LEAST = 20  # points that every trail may have
+TRAIL, TRAILS = 300, 3000  # points at most of a trail, and of all,
+LEAST = 20  # but so many every trail may have
 CONTACTS = 20  # last contacts that are shown
 TRAIL_WIDTH, CONTACT_SIZE = 0.05, 0.15  # m
 ARROW = (0.15, 0.4, 0.5)  # m: diameters of shaft and head, length of the head

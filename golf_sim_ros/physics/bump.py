@@ -8,7 +8,8 @@ from .detect import GENTLE
 from .motion import STILL
 from .pair import gap_between
 from .pile import leave, pile_up
-from .state import BUMP, FLIGHT, REST, SLIDE, moves, next_event
+from .shot import keep_launch
+from .state import BUMP, FLIGHT, SLIDE, moves, next_event
 from .vector import dot, length, put, vector
 
 STALL = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
@@ -67,14 +68,6 @@ def _tell_bumps(crowd, balls, now, log):
 
 
 @kernel
-def keep_launch(ball):
-    """Keep where a ball that nobody struck lay: there it goes back to where it is lost."""
-    if not ball['playing'] and ball['phase'] == REST:
-        ball['knocked'] = 1
-        put(ball['struck_at'], vector(ball['position']))
-
-
-@kernel
 def remember(balls, crowd):
     """Keep the members' motion before the impact, for telling. Writes before."""
     for k in range(crowd.count[MEMBERS]):
@@ -110,6 +103,7 @@ def scatter(land, balls, now, crowd, first):
             if length(vector(ball['velocity'])) + length(vector(ball['spin'])) == 0.0:
                 continue
             ball['tail_end'] = now
+            ball['leans'] = 0
         lift = dot(vector(ball['velocity']), vector(ball['normal']))
         if ball['piled']:
             ball['phase'] = FLIGHT

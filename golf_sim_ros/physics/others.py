@@ -69,7 +69,7 @@ def lean(crowd, land, balls, i, now):
 
 @generic
 def rouse(crowd, balls, radius, now):
-    """Wake the sleepers that lean on members, and on those. Writes members, phases."""
+    """Wake the sleepers that lean on members; those wake others as they move. Writes members, phases."""
 
 
 @generic

@@ -153,7 +153,7 @@ def launch(model, ball, now):
     """Decide how a ball sets off from its state: in the air, or along the ground under it."""
     ball['step'] = 0.0
     ball['stalled'] = 0
-    ball['piled'] = 0
+    ball['piled'] = ball['leans'] = 0
     ball['water'] = 0
     ball['tail_end'] = now
     ball['phase'] = FLIGHT

@@ -23,6 +23,7 @@ from .pair import place_at
 from .path import lay
 from .pressing import (PILE_STEP, ball_contact, closing, far_reach, follow, ground_contacts, hold_up,
                        neighbours, part_overlaps, press, slow_down)
+from .shot import keep_launch
 from .state import FLIGHT, HOLED, JOINED, NO_PART, PILED, REST, SLIDE, STEP
 from .together import bring, enlist
 from .vector import ZERO, along, length, put, scale, sub, vector
@@ -50,6 +51,8 @@ def is_instant(now):
 @kernel
 def pile_up(ball):
     """Make a ball one of a pile."""
+    keep_launch(ball)
+    ball['leans'] = 0
     ball['piled'] = JOINED
     ball['stalled'] = MANY_STALLS + 1
     ball['phase'] = FLIGHT

@@ -44,6 +44,14 @@ def keep_highest(ball):
 
 
 @kernel
+def keep_launch(ball):
+    """Keep where a ball that nobody struck lay: there it goes back to where it is lost."""
+    if not ball['playing'] and ball['phase'] == REST:
+        ball['knocked'] = 1
+        put(ball['struck_at'], vector(ball['position']))
+
+
+@kernel
 def note_landing(ball, now):
     """Keep where and how a struck ball first touches the ground. Writes landing."""
     if ball['playing'] and not ball['landed'] and ball['phase'] == FLIGHT:

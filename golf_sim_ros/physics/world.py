@@ -148,6 +148,7 @@ class World:
         trial = World(self.course, self.names, self._asked, self._preset)
         trial.strike(self.names[0], (1.0, 0.0, 1.0))
         trial.advance(LONGEST_SHOT)
+        trial.turn(np.zeros((len(self.names), 4)), 0.0)
         mark = stamp(self._types())
         if mark:
             mark.parent.mkdir(parents=True, exist_ok=True)
@@ -216,6 +217,7 @@ class World:
             apart <= 2.0 * (self._model.land.ball.radius + PILE_NEAR))
         leaning[number] = False
         balls['end'][leaning], balls['ending'][leaning] = self._now, LAUNCH
+        balls['knocked'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
 
     def _put_down(self, ball, position):
         depth = 0.0
@@ -348,6 +350,7 @@ class World:
         What moves begins new pieces, or it would not see the ball in its way; piles look often enough.
         """
         ball = self._balls[number]
+        self._crowd.count[AGE] = len(self.names)  # where it was is not where it will be
         ball['phase'], ball['end'] = REST, inf
         ball['playing'] = ball['knocked'] = ball['water'] = ball['leans'] = ball['piled'] = 0
         for x, y, z, lower in spots(three(ball['struck_at']), self._model.land.ball.radius):

@@ -204,10 +204,14 @@ def test_a_dropped_ball_is_put_beside_one_that_has_come_to_lie_there():
     assert a.position[2] == pytest.approx(RADIUS, abs=1e-9)
 
 
-def test_a_moving_ball_does_not_pass_through_one_that_is_dropped_in_its_way():
-    world = World(pond(), ('a', 'b'))
-    world.place('a', (0.0, 0.0))
+@pytest.mark.parametrize('bystanders', [0, 1, 5, 50])
+def test_a_moving_ball_does_not_pass_through_one_that_is_dropped_in_its_way(bystanders):
+    others = [f'c{i}' for i in range(bystanders)]
+    world = World(pond(), ('a', 'b', *others))
+    for i, name in enumerate(others):
+        world.place(name, (-20.0, 0.3 * i))
     world.place('b', (-4.0, 0.0))
+    world.place('a', (0.0, 0.0))
     world.strike('a', (10.0, 0.0, 8.0))
     world.advance(1.7)
     world.strike('b', (4.0, 0.0, 0.0))

@@ -11,7 +11,6 @@ gets it only by name. Other packages add theirs with :func:`register_effect`.
 import importlib
 import inspect
 import pkgutil
-
 from typing import Callable, NamedTuple, Optional
 
 from .._compile import kernel, literal_unroll

@@ -71,6 +71,8 @@ def _stands(method, h, error, flies):
 
 @runge_kutta.next_step.register(DormandPrince)
 def _next_step(method, h, error, flies):
+    if h < 1e-9 or not error < 1e300:
+        return h
     grow = 0.9 * max(error / allowed(method, flies), 1e-4) ** -0.2
     return min(h * min(max(grow, 0.1), 4.0), method.longest)
 

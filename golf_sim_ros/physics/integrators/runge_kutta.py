@@ -50,7 +50,7 @@ def stands(method, h, error, flies):
 
 @generic
 def next_step(method, h, error, flies):
-    """Length of the next step, or of the same again, after that one."""
+    """Length [s] of the step after one of `h` with an `error` [m], or of that again if it can't stand."""
     return h
 
 
@@ -151,6 +151,7 @@ def step(method, model, ball):
     begins = h == 0.0
     if begins:
         h = first_step(method, airspeed(model, ball), hop(model, ball))
+    whole = h
     h = longest(model, ball, h)
     flies = ball['phase'] == FLIGHT
     while True:
@@ -162,8 +163,8 @@ def step(method, model, ball):
         if stands(method, h, error, flies):
             break
         h = next_step(method, h, error, flies)
-    # The first step is often the last: a root is spared.
-    ball['step'] = h if begins else next_step(method, h, error, flies)
+    # The first step is often the last. Where nothing cut it, the next is as long: that spares a root.
+    ball['step'] = h if begins and h == whole else next_step(method, h, error, flies)
     first = ball['stages'][0]
     final = ball['stages'][last]
     ball['span'] = h
