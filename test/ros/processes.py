@@ -166,9 +166,9 @@ class Golfer(Client):
     def heartbeat(self):
         """Wait until the sim has told a newcomer where the ball is: all it told before has arrived."""
         seen, heard = len(self.poses), []
-        newcomer = self.node.create_subscription(PoseStamped, f'{self.ball}/pose', heard.append, 100)
+        # It stays until the node goes: rclpy's executor may stumble over one that is destroyed as it waits.
+        self.node.create_subscription(PoseStamped, f'{self.ball}/pose', heard.append, 100)
         wait_until(lambda: heard and len(self.poses) > seen, 'the sim told where the ball is')
-        self.node.destroy_subscription(newcomer)
 
     def reset(self):
         """All balls back to the start; `poses` ends with one from there."""
