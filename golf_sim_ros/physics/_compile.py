@@ -120,7 +120,7 @@ if numba:
         return _dynfunc.make_function(fndesc.lookup_module(), name, '', 0, env, (library,))
 
 
-OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True}
+OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
 
 
 def _inner(function, **options):

@@ -9,18 +9,19 @@ from .crowd import MEMBERS
 from .effects import felt_normal, pull
 from .ground import surface
 from .impulse import Bond, impulse, take
-from .material import lasting_restitution, restitution
+from .material import restitution
 from .motion import STILL
 from .pile import leave
 from .pressing import presses
 from .shot import note_landing
 from .state import BOUNCE, FLIGHT, SLIDE, next_event
-from .vector import ZERO, along, dot, length, put, scale, sub, vector
+from .vector import ZERO, along, dot, length, put, scale, sub, tangential, vector
 
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
 ROUND = 0.01  # of its speed: the same of a wall that closes around it, or one turn is thousands of bounces
 SLOW = 3.0  # m/s: slower than this the air hardly matters
+STEADY = 0.1  # of 1 - e: what a ratio of rebound to approach may gain by the approach
 LEAST_SETTLE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
@@ -60,9 +61,7 @@ def meet(land, balls, i, now, crowd, log):
     if approach > WORTH_TELLING:
         tell(land, ball, i, now, normal, before, log)
     ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
-    material = material_of(land, ball, ball['target'], normal)
-    bounciness = lasting_restitution(material, rebound)
-    after_impact(land, ball, now, (supported, approach, rebound, bounciness), normal)
+    after_impact(land, ball, now, (supported, approach, rebound), normal)
     if ball['piled']:
         leave(ball)
     elif is_caught(ball):
@@ -105,15 +104,16 @@ def tell(land, ball, number, now, normal, before, log):
 @kernel
 def after_impact(land, ball, now, impact, normal):
     """Decide whether the ball flies on, or stays on what it hit or on what it was on."""
-    supported, approach, rebound, bounciness = impact
+    supported, approach, rebound = impact
     if presses(land, ball, normal):
         press = -dot(pull(land.effects, vector(ball['position'])), normal)
-        if rebound <= STILL or rebound < settle_speed(land, ball) and bounciness < 1.0:
+        bounciness = 1.0
+        if rebound < settle_speed(land, ball):
+            bounciness = lasting_bounciness(land, ball, normal, rebound)
+        if bounciness < 1.0:
             # Bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all and press with
             # v (1 + e) / (1 - e) on the whole: (1 + e) / 2 of the weight, on the average.
-            ball['tail_end'] = now
-            if bounciness < 1.0:
-                ball['tail_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
+            ball['tail_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
             ball['tail_press'] = 0.5 * (1.0 + bounciness)
             stand_on(land, ball, surface.support_of(land.ground, ball['target']), normal)
             ball['phase'] = SLIDE
@@ -130,6 +130,26 @@ def after_impact(land, ball, now, impact, normal):
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
     put(ball['normal'], normal)
+
+
+@kernel
+def lasting_bounciness(land, ball, normal, rebound):
+    """The constant ratio of rebound to approach with which bounces from now on would last as long in all.
+
+    From e0 it changes with the approach, as restitution does and as soft turf throws a fast ball up. To first
+    order, sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): as if the ratio were all the
+    while that of an approach of v / (1 + e0). It is 1, endless, where it changes by more than first order.
+    """
+    material = material_of(land, ball, ball['target'], normal)
+    e0 = restitution(material, 0.0)
+    if rebound <= STILL:
+        return 0.0
+    approach = rebound / (1.0 + e0)
+    before = along(tangential(vector(ball['velocity']), normal), -approach, normal)
+    felt = felt_normal(land.effects, normal, before, material['softness'])
+    into = -dot(before, felt)
+    e = (1.0 + restitution(material, into)) * into * dot(felt, normal) / approach - 1.0
+    return e if e - e0 < STEADY * (1.0 - e0) else 1.0
 
 
 @kernel

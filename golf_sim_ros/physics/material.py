@@ -98,12 +98,3 @@ def restitution(material, speed):
         v = min(v, -0.5 * e1 / e2)
     e = material['e0'] + e1 * v + e2 * v * v
     return min(max(e, material['floor']), 1.0)
-
-
-@kernel
-def lasting_restitution(material, speed):
-    """The constant restitution with which bounces, the first of `speed` [m/s], would last as long in all.
-
-    To first order in e1: sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)).
-    """
-    return restitution(material, speed / (1.0 + restitution(material, 0.0)))

@@ -7,7 +7,7 @@ its fields are free to change while running.
 from math import sqrt
 from typing import NamedTuple
 
-from .._compile import generic, kernel
+from .._compile import generic, kernel, shared
 from ..vector import ZERO, dot
 
 BRIEF = 2e-3  # s: a step that the error control can be left to, however suddenly a law turns about
@@ -59,7 +59,7 @@ def passing(arrow, change, blunt, wanted):
     """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes through zero.
 
     A law that follows its direction turns about at once there, within `blunt` of its length. To first
-    order the arrow is shortest after `ahead`, and the law bends within `width` of that. Where the step
+    order the arrow is shortest after a while, and the law bends within some width of that. Where the step
     that is `wanted` is no longer than half of the former or than the latter, it will do: told without
     division and root, for that is the rule.
     """
@@ -70,6 +70,12 @@ def passing(arrow, change, blunt, wanted):
     if (closing <= 0.0 or closing >= 2.0 * least
             or (off + blunt * blunt) * turning - closing * closing >= least * least):
         return wanted
+    return slowed(turning, closing, off, blunt, wanted)
+
+
+@shared
+def slowed(turning, closing, off, blunt, wanted):
+    """`passing`, where it cuts the step; apart, or processors would divide and take the root each time."""
     ahead = closing / turning
     width = sqrt((max(off - closing * ahead, 0.0) + blunt * blunt) / turning)
     return min(max(0.5 * ahead, width, BRIEF), wanted)

@@ -42,14 +42,13 @@ class Magnus(NamedTuple):
 def lift_per_ratio(law, ss, rr, flow=1.0):
     """Lift coefficient over the spin ratio, at the squares of that, `ss`, and of the Reynolds number, `rr`.
 
-    See `LiftLaw`. `ss` may be given times `flow` squared: a division less before roots can be taken.
+    See `LiftLaw`. `ss` may be given times `flow` squared: that spares a division before the roots.
     """
     slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
     sped = slow + rr * rr
     early = sqrt(ss + law.early_at * law.early_at * flow * flow)
     late = sqrt(ss + law.late_at * law.late_at * flow * flow)
-    return (flow * (law.early * (sped - law.lost * slow) * late + law.late * sped * early)
-            / (sped * early * late))
+    return flow * law.early * (sped - law.lost * slow) / (sped * early) + flow * law.late / late
 
 
 @laws.acceleration.register(Magnus)
@@ -57,11 +56,10 @@ def _acceleration(effect, flow):
     vv = dot(flow.velocity, flow.velocity)
     if vv < NO_FLOW:
         return ZERO
-    # push v^2 CL along across / |across|, where S is radius |across| / v^2: no division by a vanishing spin.
-    across = cross(flow.spin, flow.velocity)
-    ss = effect.radius * effect.radius * dot(across, across)
-    per_ratio = lift_per_ratio(effect.law, ss, effect.reynolds * effect.reynolds * vv, vv)
-    return scale(effect.push * effect.radius * per_ratio, across)
+    # push v^2 CL across / |across|, where S is |across| / v^2: no division by a vanishing spin.
+    across = cross(scale(effect.radius, flow.spin), flow.velocity)
+    per_ratio = lift_per_ratio(effect.law, dot(across, across), effect.reynolds * effect.reynolds * vv, vv)
+    return scale(effect.push * per_ratio, across)
 
 
 @laws.longest_step.register(Magnus)
