@@ -48,7 +48,7 @@ def lift_per_ratio(law, ss, rr, flow=1.0):
     sped = slow + rr * rr
     early = sqrt(ss + law.early_at * law.early_at * flow * flow)
     late = sqrt(ss + law.late_at * law.late_at * flow * flow)
-    return flow * law.early * (sped - law.lost * slow) / (sped * early) + flow * law.late / late
+    return flow * law.early * (sped - law.lost * slow) / sped / early + flow * law.late / late
 
 
 @laws.acceleration.register(Magnus)
@@ -59,7 +59,7 @@ def _acceleration(effect, flow):
     # push v^2 CL across / |across|, where S is |across| / v^2: no division by a vanishing spin.
     across = cross(scale(effect.radius, flow.spin), flow.velocity)
     per_ratio = lift_per_ratio(effect.law, dot(across, across), effect.reynolds * effect.reynolds * vv, vv)
-    return scale(effect.push * per_ratio, across)
+    return scale(per_ratio, scale(effect.push, across))  # the former is known later
 
 
 @laws.longest_step.register(Magnus)
