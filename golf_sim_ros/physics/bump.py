@@ -36,7 +36,7 @@ def meet_ball(land, balls, i, now, crowd, log):
     if piled:  # the pile passes on what it is given
         together.ball_contact(land, balls, i, j, crowd, now)
     else:
-        together.gather(land, balls, crowd, now)
+        together.gather(land, balls, crowd, now, 0)
     collide(land, balls, now, crowd, log)
     scatter(land, balls, now, crowd, 0)
     for ball in (balls[i], balls[j]):

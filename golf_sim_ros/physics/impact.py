@@ -4,7 +4,7 @@ from . import together
 from ._compile import kernel, shared
 from .bump import WORTH_TELLING, collide, scatter
 from .caught import STALL, hold, is_caught
-from .contact import heading, material_number, material_of, settle, stand_on
+from .contact import heading, material_number, settle, stand_on
 from .crowd import MEMBERS
 from .effects import felt_normal, pull
 from .ground import surface
@@ -42,26 +42,30 @@ def meet(land, balls, i, now, crowd, log):
         stand_on(land, ball, surface.support_of(land.ground, ball['target']), normal)
         settle(land, ball, now)
         return
-    part, same = surface.touched(land.ground, place, land.ball.radius, ZERO)
-    if part >= 0 and dot(same, normal) > 1.0 - 1e-9:
-        ball['target'] = part
+    alone = not supported and surface.alone(land.ground, ball['target'], place, land.ball.radius)
+    if not alone:
+        part, same = surface.touched(land.ground, place, land.ball.radius, ZERO)
+        if part >= 0 and dot(same, normal) > 1.0 - 1e-9:
+            ball['target'] = part
     approach = -dot(vector(ball['velocity']), normal)
     if approach > WORTH_TELLING:
         note_landing(ball, now)
         ball['bounces'] += 1
     before = vector(ball['velocity']), vector(ball['spin'])
+    number = material_number(land, ball, ball['target'], normal)
+    material = land.materials[number]
     together.ground_contact(land, ball, i, ball['target'], normal, crowd)
-    together.gather(land, balls, crowd, now)
+    together.gather(land, balls, crowd, now, 1 if alone else 0)
     if crowd.count[MEMBERS] > 1 or together.approaching(balls, crowd) > 1:
         collide(land, balls, now, crowd, log)
         scatter(land, balls, now, crowd, 1)
     else:
-        bounce(land, ball, normal)
+        bounce(land, ball, normal, material)
     rebound = max(dot(vector(ball['velocity']), normal), 0.0)
     if approach > WORTH_TELLING:
-        tell(land, ball, i, now, normal, before, log)
+        tell(land, ball, i, now, normal, number, before, log)
     ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
-    after_impact(land, ball, now, (supported, approach, rebound), normal)
+    after_impact(land, ball, now, (supported, approach, rebound), normal, material)
     if ball['piled']:
         leave(ball)
     elif is_caught(ball):
@@ -69,9 +73,8 @@ def meet(land, balls, i, now, crowd, log):
 
 
 @kernel
-def bounce(land, ball, normal):
+def bounce(land, ball, normal, material):
     """Apply the impulse of an impact with what has `normal`. Writes velocity and spin."""
-    material = material_of(land, ball, ball['target'], normal)
     before = vector(ball['velocity'])
     felt = felt_normal(land.effects, normal, before, material['softness'])
     e = restitution(material, -dot(before, felt))
@@ -84,13 +87,13 @@ def bounce(land, ball, normal):
 
 
 @kernel
-def tell(land, ball, number, now, normal, before, log):
+def tell(land, ball, number, now, normal, material, before, log):
     """Log an impact."""
     event = next_event(log)
     event['time'] = now
     event['ball'] = number
     event['kind'] = BOUNCE
-    event['material'] = material_number(land, ball, ball['target'], normal)
+    event['material'] = material
     event['sort'] = surface.sort(land.ground, ball['target'])
     put(event['position'], vector(ball['position']))
     put(event['normal'], normal)
@@ -102,14 +105,14 @@ def tell(land, ball, number, now, normal, before, log):
 
 
 @kernel
-def after_impact(land, ball, now, impact, normal):
+def after_impact(land, ball, now, impact, normal, material):
     """Decide whether the ball flies on, or stays on what it hit or on what it was on."""
     supported, approach, rebound = impact
     if presses(land, ball, normal):
         press = -dot(pull(land.effects, vector(ball['position'])), normal)
         bounciness = 1.0
         if rebound < settle_speed(land, ball):
-            bounciness = lasting_bounciness(land, ball, normal, rebound)
+            bounciness = lasting_bounciness(land, ball, normal, material, rebound)
         if bounciness < 1.0:
             # Bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all and press with
             # v (1 + e) / (1 - e) on the whole: (1 + e) / 2 of the weight, on the average.
@@ -133,14 +136,13 @@ def after_impact(land, ball, now, impact, normal):
 
 
 @kernel
-def lasting_bounciness(land, ball, normal, rebound):
+def lasting_bounciness(land, ball, normal, material, rebound):
     """The constant ratio of rebound to approach with which bounces from now on would last as long in all.
 
     From e0 it changes with the approach, as restitution does and as soft turf throws a fast ball up. To first
     order, sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): as if the ratio were all the
     while that of an approach of v / (1 + e0). It is 1, endless, where it changes by more than first order.
     """
-    material = material_of(land, ball, ball['target'], normal)
     e0 = restitution(material, 0.0)
     if rebound <= STILL:
         return 0.0

@@ -48,12 +48,16 @@ def bring(ball, now):
 
 
 @shared
-def gather(land, balls, crowd, now):
-    """Find all that the members touch, and what that touches. Writes members, contacts."""
+def gather(land, balls, crowd, now, known):
+    """Find all that the members touch, and what that touches. Writes members, contacts.
+
+    Of the first `known` members, the contacts with the ground are there already.
+    """
     k = 0
     while k < crowd.count[MEMBERS]:
         i = crowd.members[k]
-        gather_ground(land, balls[i], i, crowd, 0 if k == 0 else crowd.count[CONTACTS])
+        if k >= known:
+            gather_ground(land, balls[i], i, crowd, 0 if k == 0 else crowd.count[CONTACTS])
         if not balls[i]['piled']:  # a pile passes on what it is given
             others.gather_balls(crowd, land, balls, i, now)
         k += 1

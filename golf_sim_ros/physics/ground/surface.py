@@ -228,6 +228,13 @@ def in_bounds(ground, x, y):
 
 
 @shared
+def alone(ground, part, point, radius):
+    """Whether a ball at `point` that touches `part` can touch nothing else."""
+    low, high = around(point, radius + SAME_HEIGHT)
+    return next_part(ground, 0, low, high) == part and next_part(ground, part + 1, low, high) == NO_PART
+
+
+@shared
 def touched(ground, point, radius, ahead):
     """Part that a ball at `point` stands on, the latest of equals, and the normal there.
 
