@@ -212,6 +212,8 @@ def play_all(model, ball, strikes, gusts, crowd, log):
     model = borrowed(model)
     crowd = borrowed(crowd)
     log = borrowed(log)
+    strikes = borrowed(strikes)
+    gusts = borrowed(gusts)
     ends = np.empty(len(strikes), ENDED)
     played = ball.copy()
     one = borrowed(played)
