@@ -20,7 +20,7 @@ from .vector import ZERO, along, dot, length, put, scale, sub, tangential, vecto
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
 ROUND = 0.01  # of its speed: the same of a wall that closes around it, or one turn is thousands of bounces
-SLOW = 3.0  # m/s: slower than this the air hardly matters
+SLOW = 8.0  # m/s: slower than this the air hardly matters
 STEADY = 0.1  # of 1 - e: what a ratio of rebound to approach may gain by the approach
 LEAST_SETTLE = 1e-6  # m/s: a bounce 0.05 picometres high
 
