@@ -10,6 +10,7 @@ from math import inf
 
 from ._compile import kernel, shared
 from .contact import in_tail, settle, take_slip
+from .effects import pull
 from .ground import surface
 from .impulse import slip
 from .integrators import step
@@ -26,6 +27,7 @@ CORRECTIONS = 12  # of a step's length
 LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
 APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
 SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
+ENERGY_COUNTS = 0.03  # m/s^2: the same of what a step gains in energy over mass
 LEAST_SLIP = 1e-7  # m/s: more than a least step takes
 
 
@@ -154,12 +156,33 @@ def share_left(land, ball, v, slipping, press, pressing):
     """Share of the step that goes no further than to where the equations change, or 1."""
     if pressing < -LIFTS * press:
         return max(press / (press - pressing), 0.01)
+    gain, allowed = gained(land, ball), ENERGY_COUNTS * land.limits.path
+    if gain > allowed:
+        return max(0.9 * allowed / gain, 0.1)
     if ball['phase'] == SLIDE:
         turned = length(slipping) > STILL and dot(slipping, slip_at_end(land, ball)) < 0.0
     else:
         turned = (material_under(land, ball)['rolling_resistance'] > 0.0 and length(v) > STILL
                   and dot(v, end_velocity(ball)) < 0.0)
     return 0.5 if turned else 1.0
+
+
+@kernel
+def gained(land, ball):
+    """Energy over mass [J/kg] that the ball gains on its piece but for that of its weight and the air's.
+
+    Ground gives none: there is a gain where its curvature jumps, from edge to wall, and no stage of the step
+    tells so.
+    """
+    way = vector(ball['path'][5])
+    v = vector(ball['velocity']), end_velocity(ball)
+    w = vector(ball['spin']), vector(ball['twist'][3])
+    turning = 0.5 * land.ball.inertia * land.ball.radius * land.ball.radius
+    gain = (0.5 * (dot(v[1], v[1]) - dot(v[0], v[0])) + turning * (dot(w[1], w[1]) - dot(w[0], w[0]))
+            - dot(pull(land.effects, vector(ball['position'])), way))
+    if in_tail(ball, ball['begin']):
+        gain -= length(vector(ball['tail_air'])) * ball['span'] * max(length(v[0]), length(v[1]))
+    return gain
 
 
 @shared
