@@ -51,7 +51,7 @@ def _contact_normal(effect, normal, velocity, softness):
 
 @kernel
 def saturated(tilt, most):
-    """`most` tanh(`tilt` / `most`), in half the time: to an absolute rounding error, which is all that counts."""
+    """`most` tanh(`tilt` / `most`) to an absolute rounding error, in half the time."""
     return most - 2.0 * most / (1.0 + exp(2.0 * tilt / most))
 
 
