@@ -120,7 +120,7 @@ if numba:
         return _dynfunc.make_function(fndesc.lookup_module(), name, '', 0, env, (library,))
 
 
-# That 0 and -0 are one leaves every result as it is and spares an addition for each effect without a word.
+# That 0 and -0 are one changes results in no more than that, and spares an addition for each silent effect.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
 
 

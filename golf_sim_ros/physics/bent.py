@@ -17,7 +17,7 @@ from .integrators import step
 from .motion import STILL, following_rates, material_under, unwinding
 from .path import lay, position
 from .state import FLIGHT, ROLL, SLIDE, moves
-from .vector import ZERO, along, cross, dot, length, put, scale, sub, vector
+from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
 
 MOST_TURN = 0.1  # rad of the normal in a step
 FIRST_STEP = 0.02  # s
@@ -27,7 +27,8 @@ CORRECTIONS = 12  # of a step's length
 LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
 APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
 SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
-ENERGY_COUNTS = 0.03  # m/s^2: the same of what a step gains in energy over mass
+GAIN = 0.03  # m/s^2: a step may gain so much energy over mass for each metre that a path may be off,
+LEAST_GAIN = 2e-10  # J/kg: and this, which lifts a ball by 20 pm, and as much of the square of its speed
 LEAST_SLIP = 1e-7  # m/s: more than a least step takes
 
 
@@ -156,7 +157,7 @@ def share_left(land, ball, v, slipping, press, pressing):
     """Share of the step that goes no further than to where the equations change, or 1."""
     if pressing < -LIFTS * press:
         return max(press / (press - pressing), 0.01)
-    gain, allowed = gained(land, ball), ENERGY_COUNTS * land.limits.path
+    gain, allowed = gained(land, ball), GAIN * land.limits.path + LEAST_GAIN * (1.0 + dot(v, v))
     if gain > allowed:
         return max(0.9 * allowed / gain, 0.1)
     if ball['phase'] == SLIDE:
@@ -171,17 +172,18 @@ def share_left(land, ball, v, slipping, press, pressing):
 def gained(land, ball):
     """Energy over mass [J/kg] that the ball gains on its piece but for that of its weight and the air's.
 
-    Ground gives none: there is a gain where its curvature jumps, from edge to wall, and no stage of the step
-    tells so.
+    Ground only takes some: there is a gain where its curvature jumps, from edge to wall, and no stage of the
+    step tells so.
     """
+    place = vector(ball['position'])
     way = vector(ball['path'][5])
-    v = vector(ball['velocity']), end_velocity(ball)
-    w = vector(ball['spin']), vector(ball['twist'][3])
-    turning = 0.5 * land.ball.inertia * land.ball.radius * land.ball.radius
-    gain = (0.5 * (dot(v[1], v[1]) - dot(v[0], v[0])) + turning * (dot(w[1], w[1]) - dot(w[0], w[0]))
-            - dot(pull(land.effects, vector(ball['position'])), way))
+    v0, v1 = vector(ball['velocity']), end_velocity(ball)
+    w0, w1 = vector(ball['spin']), vector(ball['twist'][3])
+    inertia = land.ball.inertia * land.ball.radius * land.ball.radius
+    weight = scale(0.5, add(pull(land.effects, place), pull(land.effects, add(place, way))))
+    gain = 0.5 * (dot(v1, v1) - dot(v0, v0) + inertia * (dot(w1, w1) - dot(w0, w0))) - dot(weight, way)
     if in_tail(ball, ball['begin']):
-        gain -= length(vector(ball['tail_air'])) * ball['span'] * max(length(v[0]), length(v[1]))
+        gain -= length(vector(ball['tail_air'])) * ball['span'] * max(length(v0), length(v1))
     return gain
 
 

@@ -22,6 +22,7 @@ WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it 
 ROUND = 0.01  # of its speed: the same of a wall that closes around it, or one turn is thousands of bounces
 SLOW = 8.0  # m/s: slower than this the air hardly matters
 STEADY = 0.1  # of 1 - e: what a ratio of rebound to approach may gain by the approach
+AT_LAST = 0.1  # of the speed below which bounces are summed
 LEAST_SETTLE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
@@ -54,7 +55,7 @@ def meet(land, balls, i, now, crowd, log):
     before = vector(ball['velocity']), vector(ball['spin'])
     number = material_number(land, ball, ball['target'], normal)
     material = land.materials[number]
-    together.ground_contact(land, ball, i, ball['target'], normal, crowd)
+    together.ground_contact(land, ball, i, ball['target'], normal, material, crowd)
     together.gather(land, balls, crowd, now, 1 if alone else 0)
     if crowd.count[MEMBERS] > 1 or together.approaching(balls, crowd) > 1:
         collide(land, balls, now, crowd, log)
@@ -141,17 +142,20 @@ def lasting_bounciness(land, ball, normal, material, rebound):
 
     From e0 it changes with the approach, as restitution does and as soft turf throws a fast ball up. To first
     order, sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): as if the ratio were all the
-    while that of an approach of v / (1 + e0). It is 1, endless, where it changes by more than first order.
+    while that of an approach of v / (1 + e0). Where that is much more than e0, it is 1: bounces go on. But a
+    law of turf that does not fade with the approach has no such sum at all: at last it counts no more.
     """
-    e0 = restitution(material, 0.0)
     if rebound <= STILL:
         return 0.0
+    e0 = restitution(material, 0.0)
     approach = rebound / (1.0 + e0)
     before = along(tangential(vector(ball['velocity']), normal), -approach, normal)
     felt = felt_normal(land.effects, normal, before, material['softness'])
     into = -dot(before, felt)
     e = (1.0 + restitution(material, into)) * into * dot(felt, normal) / approach - 1.0
-    return e if e - e0 < STEADY * (1.0 - e0) else 1.0
+    if e - e0 < STEADY * (1.0 - e0):
+        return e
+    return restitution(material, approach) if rebound < AT_LAST * settle_speed(land, ball) else 1.0
 
 
 @kernel

@@ -139,14 +139,16 @@ def gather_ground(land, ball, i, crowd, begin):
     ground = land.ground
     place = vector(ball['position'])
     if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new(crowd, begin, vector(ball['normal'])):
-        ground_contact(land, ball, i, ball['support'], vector(ball['normal']), crowd)
+        normal = vector(ball['normal'])
+        ground_contact(land, ball, i, ball['support'], normal,
+                       material_of(land, ball, ball['support'], normal), crowd)
     low, high = surface.around(place, land.ball.radius + TOGETHER)
     part = surface.next_part(ground, 0, low, high)
     while part >= 0:
         distance, normal = surface.nearest(ground, part, place)
         if distance - land.ball.radius <= TOGETHER and is_new(crowd, begin, normal) and (
                 surface.touchable(ground, part, place)):
-            ground_contact(land, ball, i, part, normal, crowd)
+            ground_contact(land, ball, i, part, normal, material_of(land, ball, part, normal), crowd)
         part = surface.next_part(ground, part + 1, low, high)
 
 
@@ -160,13 +162,12 @@ def is_new(crowd, begin, normal):
 
 
 @kernel
-def ground_contact(land, ball, i, part, normal, crowd):
-    """Add the contact of ball `i` with `part`."""
+def ground_contact(land, ball, i, part, normal, material, crowd):
+    """Add the contact of ball `i` with `part`, which is of that `material`."""
     n = new_contact(crowd, i, -1, part, normal)
     if n < 0:
         return
     row = crowd.contacts[n]
-    material = material_of(land, ball, part, normal)
     row['restitution'] = restitution(material, max(-dot(vector(ball['velocity']), normal), 0.0))
     row['tangential'] = material['tangential_restitution']
     row['friction'] = material['dynamic_friction']

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from driving_range import launched, level
 from golf_sim_ros.materials import shipped
-from golf_sim_ros.physics import PENNER, Course, Material, Phase, Plane, World, simulate_many
+from golf_sim_ros.physics import ACCURACY, PENNER, Course, Material, Phase, Plane, World, simulate_many
 import numpy as np
 import pytest
 
@@ -66,6 +66,16 @@ def test_penners_turf_is_as_published(row):
     found = (told.velocity[0], told.velocity[2], -radius * told.spin[1])
     size = np.hypot(*expected[:2])
     np.testing.assert_allclose(found, expected, atol=0.02 * size)
+
+
+def test_a_ball_that_skims_on_turf_that_never_stops_to_throw_it_up_comes_to_rest():
+    course = level(Material('penner', PENNER, 0.0, 0.45, 0.40, 0.13, 0.004, 1.0))
+    skims = np.array([(3.0, 0.0, 0.5), (20.0, 0.0, 1.0), (40.0, 0.0, 4.0)])
+    effects = 'gravity', 'drag', 'penner_2002'
+    for accuracy in ACCURACY:
+        ends = simulate_many(course, skims, 0 * skims, accuracy=accuracy, effects=effects)
+        assert (ends['status'] == 'at_rest').all()
+        assert ends['bounces'].max() < 1000
 
 
 @pytest.mark.parametrize('name', ('green', 'fairway', 'rough', 'soft_green', 'hardpan', 'artificial_turf',

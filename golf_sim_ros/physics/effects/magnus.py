@@ -59,7 +59,7 @@ def _acceleration(effect, flow):
     # push v^2 CL across / |across|, where S is |across| / v^2: no division by a vanishing spin.
     across = cross(scale(effect.radius, flow.spin), flow.velocity)
     per_ratio = lift_per_ratio(effect.law, dot(across, across), effect.reynolds * effect.reynolds * vv, vv)
-    return scale(per_ratio, scale(effect.push, across))  # the former is known later
+    return scale(per_ratio, scale(effect.push, across))
 
 
 @laws.longest_step.register(Magnus)

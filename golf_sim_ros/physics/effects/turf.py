@@ -52,7 +52,8 @@ def _contact_normal(effect, normal, velocity, softness):
 @kernel
 def saturated(tilt, most):
     """`most` tanh(`tilt` / `most`) to an absolute rounding error, in half the time."""
-    return most - 2.0 * most / (1.0 + exp(2.0 * tilt / most))
+    q = exp(-2.0 * tilt / most)
+    return most * (1.0 - q) / (1.0 + q)
 
 
 @kernel

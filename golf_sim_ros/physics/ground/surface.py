@@ -229,7 +229,7 @@ def in_bounds(ground, x, y):
 
 @shared
 def alone(ground, part, point, radius):
-    """Whether a ball at `point` that touches `part` can touch nothing else."""
+    """Whether a ball at `point` that touches `part` can touch no other ground."""
     low, high = around(point, radius + SAME_HEIGHT)
     return next_part(ground, 0, low, high) == part and next_part(ground, part + 1, low, high) == NO_PART
 
