@@ -29,7 +29,8 @@ APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
 SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
 GAIN = 0.03  # m/s^2: a step may gain so much energy over mass for each metre that a path may be off,
 LEAST_GAIN = 2e-10  # J/kg: and this, which lifts a ball by 20 pm, and as much of the square of its speed
-LEAST_SLIP = 1e-7  # m/s: more than a least step takes
+LEAST_SLIP = 1e-7  # m/s: or so little,
+SLIP_TIME = 1e-8  # s: or what friction of the press takes meanwhile, which is more than a least step
 
 
 @shared
@@ -46,15 +47,15 @@ def bent_piece(model, ball, now):
     grips = needed <= material_under(land, ball)['static_friction'] * press
     if ball['phase'] == ROLL and not grips:
         ball['phase'] = SLIDE
-    rest_of_motion(land, ball, force, grips, now)
+    rest_of_motion(land, ball, force, press, grips, now)
     if not moves(ball['phase']):
         return
     v = vector(ball['velocity'])
     force, _, press, _ = following_rates(land, ball, place, v, vector(ball['spin']))
-    turning = length(surface.turn(land.ground, ball['support'], place, v))
+    turn = surface.turn(land.ground, ball['support'], place, v)
     h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
-    h = min(h, MOST_TURN / max(turning, 1e-3))
-    h = min(h, time_to_wind_off(land, ball, press))
+    h = min(h, MOST_TURN / max(length(turn), 1e-3))
+    h = min(h, time_to_wind_off(land, ball, press, turn))
     h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
     if in_tail(ball, now):
         h = min(h, ball['tail_end'] - now)
@@ -93,7 +94,7 @@ def share_on_ground(land, ball):
 
 
 @shared
-def rest_of_motion(land, ball, force, grips, now):
+def rest_of_motion(land, ball, force, press, grips, now):
     """Take away slip, or the way to a stop, that is too little to count. Writes motion and phase.
 
     Grip takes slip as an impulse; so nothing is gained.
@@ -102,11 +103,11 @@ def rest_of_motion(land, ball, force, grips, now):
     normal = vector(ball['normal'])
     r = land.ball.radius
     about = dot(vector(ball['spin']), normal)
-    if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(land):
+    if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(land, press):
         put(ball['spin'], along(vector(ball['spin']), -about, normal))
     if ball['phase'] == SLIDE:
         u = slip(v, vector(ball['spin']), normal, r)
-        if grips and length(u) <= slip_limit(land):
+        if grips and length(u) <= slip_limit(land, press):
             take_slip(land, ball)
             ball['phase'] = ROLL
         return
@@ -119,20 +120,25 @@ def rest_of_motion(land, ball, force, grips, now):
 
 
 @kernel
-def slip_limit(land):
-    """Slip [m/s] that is too little to count."""
-    return max(SLIP_COUNTS * land.limits.path, LEAST_SLIP)
+def slip_limit(land, press):
+    """Slip [m/s] that is too little to count, of a ball that presses with `press`."""
+    return max(SLIP_COUNTS * land.limits.path, LEAST_SLIP, SLIP_TIME * press)
 
 
 @kernel
-def time_to_wind_off(land, ball, press):
-    """Time [s] until pivot friction has taken the spin about the normal, of a ball that turns about it."""
+def time_to_wind_off(land, ball, press, turn):
+    """Time [s] until pivot friction has taken the spin about the normal, of a ball that turns about it.
+
+    A normal that turns drives that spin: where it does so harder than friction brakes, there is no such time.
+    """
     r = land.ball.radius
     material = material_under(land, ball)
-    about = abs(dot(vector(ball['spin']), vector(ball['normal'])))
-    if material['pivot_friction'] == 0.0 or about * r <= STILL:
+    about = dot(vector(ball['spin']), vector(ball['normal']))
+    if material['pivot_friction'] == 0.0 or abs(about) * r <= STILL:
         return inf
-    return about / unwinding(material, press, r, land.ball.inertia)
+    drive = dot(vector(ball['spin']), turn)
+    losing = unwinding(material, press, r, land.ball.inertia) - (drive if about > 0.0 else -drive)
+    return abs(about) / losing if losing > 0.0 else inf
 
 
 @shared

@@ -190,6 +190,20 @@ def test_nothing_tunnels_through_a_steep_map():
                 assert bz > top(kind, bx, by)[0] + 0.5 * RADIUS, (world.time, world['ball'])
 
 
+@pytest.mark.parametrize('start, velocity, spin', [
+    ((-1.0088, 0.0998, 0.30765), (98.193, -4.342, -52.949), (1310.3, 405.7, -761.4)),
+    ((-0.9221, -0.4896, 0.28377), (39.679, -4.957, -22.72), (-304.8, 98.0, 51.8))])
+def test_friction_under_a_press_of_thousands_of_weights_does_not_hold_up_time(start, velocity, spin):
+    """Ground that turns fast drives slip and spin as hard as friction takes them: no step shrinks to none."""
+    world = World(Course((step(), Plane((0, 0, -3), material=HARD))), effects=GRAVITY, accuracy='reference')
+    world.place('ball', start, velocity, spin)
+    before = energy(world['ball'])
+    for _ in range(3):
+        world.advance(0.02)
+        assert energy(world['ball']) <= before + 1e-6
+    assert int(world._balls['evaluations'][0]) < 20_000
+
+
 def test_a_ball_stays_outside_the_walls_of_a_map():
     block = surface(lambda x, y: 1.0 + 0.1 * x + 0 * y, HARD, 0.5, (0, -2), (4, 2))
     world = World(Course((block, Plane(material=HARD))), effects=GRAVITY)
