@@ -10,7 +10,7 @@ from math import inf
 
 from ._compile import kernel, shared
 from .contact import in_tail, settle, take_slip
-from .effects import pull
+from .effects import flight_rates, pull
 from .ground import surface
 from .impulse import slip
 from .integrators import step
@@ -40,7 +40,8 @@ def bent_piece(model, ball, now):
     place = vector(ball['position'])
     w = vector(ball['spin'])
     force, _, press, needed = following_rates(land, ball, place, vector(ball['velocity']), w)
-    if press <= 0.0:
+    holding = press if press > 0.0 else press_of_air(model, ball, place, vector(ball['velocity']), w)
+    if holding <= 0.0:
         ball['phase'] = FLIGHT
         ball['step'] = 0.0
         return
@@ -65,8 +66,11 @@ def bent_piece(model, ball, now):
         step(model, ball)
         following = ball['step']
         h = ball['span']
-        pressing = put_on_ground(land, ball)
-        left = share_left(land, ball, v, slipping, press, pressing)
+        held = put_on_ground(land, ball)
+        if held <= 0.0:
+            end = along(place, 1.0, vector(ball['path'][5]))
+            held = press_of_air(model, ball, end, end_velocity(ball), vector(ball['twist'][3]))
+        left = share_left(land, ball, v, slipping, holding, held)
         if left == 1.0:
             left = share_on_ground(land, ball)
             following = min(following, 2.0 * h * left)
@@ -76,6 +80,19 @@ def bent_piece(model, ball, now):
             break
         h *= left
     ball['step'] = following
+
+
+@shared
+def press_of_air(model, ball, place, velocity, spin):
+    """Press with what the air adds to the weight.
+
+    Topspin and wind hold a ball to a crest from where its weight alone would let it fly: it would be back at
+    once. Elsewhere a ball on the ground feels no air.
+    """
+    _, normal = surface.nearest(model.land.ground, ball['support'], place)
+    turn = surface.turn(model.land.ground, ball['support'], place, velocity)
+    force, _ = flight_rates(model.effects, model.land.ground, place, velocity, spin)
+    return -dot(force, normal) - dot(velocity, turn)
 
 
 @shared
@@ -159,10 +176,13 @@ def time_to_change(land, ball, force, press):
 
 
 @shared
-def share_left(land, ball, v, slipping, press, pressing):
-    """Share of the step that goes no further than to where the equations change, or 1."""
-    if pressing < -LIFTS * press:
-        return max(press / (press - pressing), 0.01)
+def share_left(land, ball, v, slipping, holding, held):
+    """Share of the step that goes no further than to where the equations change, or 1.
+
+    ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the end.
+    """
+    if held < -LIFTS * holding:
+        return max(holding / (holding - held), 0.01)
     gain, allowed = gained(land, ball), GAIN * land.limits.path + LEAST_GAIN * (1.0 + dot(v, v))
     if gain > allowed:
         return max(0.9 * allowed / gain, 0.1)

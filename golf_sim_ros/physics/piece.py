@@ -21,8 +21,8 @@ from .state import BORDER, FLIGHT, HIT, NO_PART, PILED, ROLL, SLIDE, SPLASH, STE
 from .vector import ZERO, along, cross, dot, length, put, scale, sub, tangential, unit, vector
 
 LONGEST_SHOT = 300.0  # s
-ENDLESS = 100  # pieces of no length, one after the other: a contact that never ends is let go for a MOMENT,
-MOMENT = 1e-9  # s, and if it goes on for longer and longer ones, up to what a path may be off
+ENDLESS = 100  # pieces of no length, one after the other: every second one is let go for a MOMENT,
+MOMENT = 1e-9  # s, and if that goes on for longer and longer ones, up to what a path may be off
 LEAST_STRAY = 1.5e-7  # m: or this
 LEAST_PRESS = 0.1  # of its weight: what lift leaves of it, at least, while a ball's last bounces go on
 SINKING_STEP = 0.02  # s: so often a sinking ball is asked whether it has come far enough
@@ -89,7 +89,7 @@ def end_piece(model, ball, now, until):
     if ball['piled'] and ball['ending'] == STEP and ball['end'] > next_instant(now) - 1e-9:
         ball['end'] = next_instant(now)  # the same number for all
     ball['stuck'] = ball['stuck'] + 1 if ball['end'] <= now else 0
-    if ball['stuck'] > ENDLESS:
+    if ball['stuck'] > ENDLESS and ball['stuck'] % 2 == 0:
         times = ball['stuck'] - ENDLESS
         most = max(model.land.limits.path, LEAST_STRAY) / (length(vector(ball['velocity'])) + 1e-3)
         ball['end'] = now + min(MOMENT * times * times, most, ball['span'])

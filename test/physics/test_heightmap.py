@@ -3,7 +3,7 @@
 from math import pi, sqrt
 import os
 
-from driving_range import GRAVITY, HARD, random_shots
+from driving_range import EVERYTHING, GRAVITY, HARD, random_shots
 from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics import (ACCURACY, METHODS, Course, Heightmap, Material, Phase, Plane, Preset,
@@ -145,6 +145,34 @@ def test_a_ball_leaves_a_crest_where_gravity_no_longer_bends_its_path(share, fli
     world.place('ball', (0, 0), (speed, 0, 0), (0, speed / RADIUS, 0))
     world.advance(0.002)
     assert (world['ball'].phase == Phase.FLIGHT) == flies
+
+
+HILL = surface(lambda x, y: 0.15 * np.sin(x * pi / 20) ** 2 * np.cos(y * pi / 10) ** 2, GREEN, 0.5,
+               (0, -5), (20, 5))
+
+
+def rolls_over(course, start, velocity, spin, effects, accuracy):
+    """Roll a ball over `course` for a second: never into the hill, and in few steps."""
+    world = World(course, effects=effects, accuracy=accuracy)
+    world.place('ball', start, velocity, spin)
+    kind = heightmap.build([HILL], {GREEN: 0})
+    for _ in range(50):
+        world.advance(0.02)
+        x, y, z = world['ball'].position
+        if 0 < x < 20 and abs(y) < 5:
+            assert z > top(kind, x, y)[0] + RADIUS - 1e-4, (world.time, world['ball'])
+    assert int(world._balls['evaluations'][0]) < 10_000
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+def test_topspin_holds_a_ball_to_a_crest_from_where_its_weight_alone_would_let_it_fly(accuracy):
+    rolls_over(Course((HILL,)), (0, 0), (44, 0, 0), (0, 160, 0), EVERYTHING, accuracy)
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+def test_a_ball_rolls_from_a_plane_on_to_a_map_that_begins_in_its_cut(accuracy):
+    cut = Plane(material=GREEN, cut=(((0, -5), (20, -5), (20, 5), (0, 5)),))
+    rolls_over(Course((cut, HILL)), (-1, -4.2), (3.26, -0.5, 0), (0, 0, 0), GRAVITY, accuracy)
 
 
 @pytest.mark.parametrize('rise, rests', [(1.39, True), (1.41, False)])

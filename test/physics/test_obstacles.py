@@ -125,6 +125,16 @@ def test_leaves_take_exp_of_their_way_from_a_balls_speed(radius, speed):
     assert world['ball'].velocity == pytest.approx((speed * exp(-0.25 * 2 * radius), 0, 0), rel=1e-4)
 
 
+def test_steps_grow_again_past_the_jump_of_drag_where_leaves_begin_and_end():
+    crown = Sphere((10.0, 0.0, 3.0), 2.0, LEAVES)
+    course = Course((Plane(material=HARD),), obstacles=(crown,))
+    world = World(course, effects=STILL, accuracy='reference')
+    for k in range(20):
+        world.place('ball', (5.0, 0.05 * k, 2.0), (30.0, 0.02 * k, 4.0))
+        world.advance(0.5)
+    assert int(world._balls['evaluations'][0]) < 40_000
+
+
 def test_wind_blows_no_ball_through_the_leaves_and_without_leaves_there_is_no_foliage():
     course = Course((Plane(material=HARD),), obstacles=(Sphere((10, 0, 9), 2.5, LEAVES),))
     assert 'foliage' in World(course).effects_on

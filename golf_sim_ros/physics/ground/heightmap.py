@@ -282,11 +282,14 @@ def turned(rate, offset):
 
 @laws.touchable.register(Maps)
 def _touchable(kind, part, point):
-    # Where the surface goes on past the border that holds the nearest place, a neighbour is nearer.
-    if part >= len(kind.cells):
-        return True
+    # Where the surface goes on past the border that holds the nearest place, a neighbour is nearer. A wall's
+    # upper edge is its cell's.
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
+    if is_wall(kind, grid, part):
+        return beside_wall(kind, grid, part, local)[0]
+    if part == grid['number']:
+        return True
     x, y, at = place_under(kind, grid, part, local)
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     gx, gy = pulls(local, x, y, at)

@@ -20,6 +20,8 @@ TABLE = np.array([
     [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
     [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]])
 ERROR = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
+LEAST = 1e-9  # s
+MOST_GROWTH = 4.0  # from one step to the next
 ON_GROUND = 0.2  # of the tolerance: along the ground, where a ball must be slow to stop, errors count more,
 MOST_ON_GROUND = 1e-5  # m: and coarser steps cost as much, for other things end them
 
@@ -65,16 +67,18 @@ def allowed(method, flies):
 
 @runge_kutta.stands.register(DormandPrince)
 def _stands(method, h, error, flies):
-    # Nothing is gained below 1e-9 s; the world refuses what is not finite.
-    return error <= allowed(method, flies) or h < 1e-9 or not error < 1e300
+    # Where a force jumps, nothing is gained below LEAST; the world refuses what is not finite.
+    return error <= allowed(method, flies) or h < LEAST or not error < 1e300
 
 
 @runge_kutta.next_step.register(DormandPrince)
 def _next_step(method, h, error, flies):
-    if h < 1e-9 or not error < 1e300:
+    if h < LEAST:  # the jump is behind
+        return MOST_GROWTH * h
+    if not error < 1e300:
         return h
     grow = 0.9 * max(error / allowed(method, flies), 1e-4) ** -0.2
-    return min(h * min(max(grow, 0.1), 4.0), method.longest)
+    return min(h * min(max(grow, 0.1), MOST_GROWTH), method.longest)
 
 
 METHOD = DormandPrince
