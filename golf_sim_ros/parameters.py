@@ -64,7 +64,7 @@ def declare(node, name, default):
         description=MEANING[name], read_only=name not in LIVE, floating_point_range=ranges)
     value = list(default) if isinstance(default, tuple) else default
     value = node.declare_parameter(name, value, descriptor).value
-    return tuple(value) if isinstance(default, tuple) else value
+    return tuple(value or ()) if isinstance(default, tuple) else value  # ROS has no type for [], only None
 
 
 def checked(publishes_clock, parameters):

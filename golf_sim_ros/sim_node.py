@@ -26,7 +26,7 @@ COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
 # Asks for the least, so it matches every publisher; only the newest wind counts.
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 PATIENCE = 1.5  # s; a start that compiles nothing is done by then
-WAITING = ('waiting for the physics to be compiled: the first start on a machine does that, for up to '
+WAITING = ('waiting for the physics to be compiled: the first start with these effects does that, for up to '
            'a minute; later ones find it done')
 EXAMPLE = '{linear: {x: 65.0, z: 14.0}, angular: {y: -280.0}}'
 

@@ -65,11 +65,17 @@ def stamp(folder):
 def wanted(folder, distro):
     """All that decides what has to be in `folder`, as one line."""
     parts = [os.path.abspath(folder), distro, sys.base_prefix, platform.python_version(), ROOT,
-             os.environ.get('ROS_DISTRO', ''), str(importlib.util.find_spec('rclpy') is not None)]
+             os.environ.get('ROS_DISTRO', ''), str(has_rclpy(folder))]
     for name in ('setup.py', 'pyproject.toml', os.path.join('tools', 'make_environment.py')):
         with open(os.path.join(ROOT, name), 'rb') as file:
             parts.append(hashlib.sha256(file.read()).hexdigest())
     return ' '.join(parts)
+
+
+def has_rclpy(folder):
+    """Whether there is an rclpy other than that of the environment in `folder`, which may be active."""
+    found = importlib.util.find_spec('rclpy')
+    return found is not None and not str(found.origin).startswith(os.path.abspath(folder) + os.sep)
 
 
 def make(folder, distro):

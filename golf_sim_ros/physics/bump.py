@@ -2,14 +2,15 @@
 """Balls that hit balls."""
 from . import others, together
 from ._compile import kernel, shared
-from .contact import settle
+from .contact import material_number, settle
 from .crowd import CONTACTS, MEMBERS, Crowd
 from .detect import GENTLE
+from .ground import surface
 from .motion import STILL
 from .pair import gap_between
 from .pile import leave, pile_up
 from .shot import keep_launch
-from .state import BUMP, FLIGHT, SLIDE, moves, next_event
+from .state import BOUNCE, BUMP, FLIGHT, SLIDE, moves, next_event
 from .vector import dot, length, put, vector
 
 STALL = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
@@ -37,7 +38,7 @@ def meet_ball(land, balls, i, now, crowd, log):
         together.ball_contact(land, balls, i, j, crowd, now)
     else:
         together.gather(land, balls, crowd, now, 0)
-    collide(land, balls, now, crowd, log)
+    collide(land, balls, now, crowd, 0, log)
     scatter(land, balls, now, crowd, 0)
     for ball in (balls[i], balls[j]):
         if ball['piled']:
@@ -50,13 +51,22 @@ def meet_ball(land, balls, i, now, crowd, log):
 
 
 @shared
-def collide(land, balls, now, crowd, log):
-    """Let the members collide at all contacts. Writes motion; logs impacts of balls."""
+def collide(land, balls, now, crowd, first, log):
+    """Let the members collide at all contacts. Writes motion; logs impacts, on ground from row `first` on."""
     for k in range(crowd.count[MEMBERS]):
         keep_launch(balls[crowd.members[k]])
     remember(balls, crowd)
     together.reflect(land, balls, crowd)
     others.tell_bumps(crowd, balls, now, log)
+    for n in range(first, crowd.count[CONTACTS]):
+        row = crowd.contacts[n]
+        if row['b'] < 0 and row['approach'] > WORTH_TELLING:
+            ball = balls[row['a']]
+            ball['bounces'] += 1
+            event = tell(balls, now, row, crowd, log)
+            event['kind'] = BOUNCE
+            event['material'] = material_number(land, ball, row['part'], vector(row['normal']))
+            event['sort'] = surface.sort(land.ground, row['part'])
 
 
 @others.tell_bumps.register(Crowd)
@@ -64,7 +74,9 @@ def _tell_bumps(crowd, balls, now, log):
     for n in range(crowd.count[CONTACTS]):
         row = crowd.contacts[n]
         if row['b'] >= 0 and row['approach'] > WORTH_TELLING:
-            tell(balls, now, row, crowd, log)
+            event = tell(balls, now, row, crowd, log)
+            event['kind'] = BUMP
+            event['material'] = row['b']
 
 
 @kernel
@@ -78,13 +90,11 @@ def remember(balls, crowd):
 
 @kernel
 def tell(balls, now, row, crowd, log):
-    """Log an impact of two balls."""
+    """Log an impact of a contact's ball. Returns the event, which lacks what was hit."""
     ball = balls[row['a']]
     event = next_event(log)
     event['time'] = now
     event['ball'] = row['a']
-    event['kind'] = BUMP
-    event['material'] = row['b']
     put(event['position'], vector(ball['position']))
     put(event['normal'], vector(row['normal']))
     put(event['velocity_before'], vector(crowd.before[row['a'], 0:3]))
@@ -92,6 +102,7 @@ def tell(balls, now, row, crowd, log):
     put(event['spin_before'], vector(crowd.before[row['a'], 3:6]))
     put(event['spin_after'], vector(ball['spin']))
     put(event['impulse'], vector(row['impulse']))
+    return event
 
 
 @kernel

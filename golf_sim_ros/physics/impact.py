@@ -58,7 +58,7 @@ def meet(land, balls, i, now, crowd, log):
     together.ground_contact(land, ball, i, ball['target'], normal, material, crowd)
     together.gather(land, balls, crowd, now, 1 if alone else 0)
     if crowd.count[MEMBERS] > 1 or together.approaching(balls, crowd) > 1:
-        collide(land, balls, now, crowd, log)
+        collide(land, balls, now, crowd, 1, log)
         scatter(land, balls, now, crowd, 1)
     else:
         bounce(land, ball, normal, material)

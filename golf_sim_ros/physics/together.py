@@ -192,13 +192,12 @@ def reflect(land, balls, crowd):
     fastest = 0.0
     for k in range(crowd.count[MEMBERS]):
         fastest = max(fastest, length(vector(balls[crowd.members[k]]['velocity'])))
-    for n in range(count):
-        contacts[n]['approach'] = max(-rate_of(balls, contacts[n]), 0.0)
     for round_ in range(ROUNDS):
         approaching = False
         for n in range(count):
             row = contacts[n]
             row['rate'] = rate_of(balls, row)
+            row['approach'] = max(row['approach'], -row['rate'])
             # At last nothing bounces any more, and all that touches counts: then none approaches.
             row['active'] = row['rate'] < -1e-12 * fastest or round_ == ROUNDS - 1
             approaching |= row['rate'] < -1e-12 * fastest

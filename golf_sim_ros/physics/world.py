@@ -254,7 +254,8 @@ class World:
         velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))
         reason = objection(velocity, spin)
         if not reason and ball['phase'] != REST:
-            reason = f'ball {name} is ' + ('holed' if ball['phase'] == HOLED else 'in motion')
+            holed = ball['phase'] == HOLED
+            reason = f'ball {name} is ' + ('holed: place it anew, or reset' if holed else 'in motion')
         if reason:
             raise Rejected(reason)
         self._settle_clock()

@@ -133,6 +133,26 @@ def test_a_rolling_ball_that_hits_an_equal_one_keeps_two_sevenths_and_gives_five
     assert world['object'].velocity[0] == pytest.approx(1.0, abs=1e-9)
 
 
+def test_the_impulses_told_of_an_instant_are_all_that_changed_each_ball():
+    """A ball that rolls up to another one presses it into the ground at the same instant."""
+    world = table(FLOOR, ['red', 'blue', 'green'], 0.8, 0.2)
+    world.place('red', (0, 0, RADIUS), **rolling(4.0))
+    world.place('blue', (0.3, 0, RADIUS))
+    world.place('green', (0.3 + 2 * RADIUS, 0, RADIUS))
+    told = world.advance(0.1)
+    first = [event for event in told if event.time == told[0].time]
+    assert {event.kind for event in first} == {'ball', 'bounce'} and len(first) >= 3
+    gained = {name: np.zeros(3) for name in world.names}
+    for event in first:
+        gained[event.ball] += event.impulse
+        if event.kind == 'ball':
+            gained[event.with_] -= event.impulse
+    moved = {event.ball: np.subtract(event.velocity_after, event.velocity_before) for event in first}
+    for name, change in moved.items():
+        assert gained[name] == pytest.approx(Ball().mass * change, rel=0, abs=1e-12), name
+    assert {'red', 'blue'} <= set(moved)
+
+
 def test_balls_pass_through_each_other_where_ball_ball_is_off():
     course = Course((Plane(material=IDEAL),), tee=(0.0, 500.0), effects=('gravity',))
     world = World(course, ('red', 'blue'))

@@ -163,7 +163,7 @@ def test_an_effect_that_is_on_matters(name, told):
 def difference(name):
     """By how much [m] a shot in the wind would come to rest elsewhere, or come down, without an effect."""
     scene = SCENES['wind']
-    others = [other for other in choose('auto', scene).on if other != name]
+    others = [other for other in choose('auto', scene).on if other not in (name, *EFFECTS[name].instead_of)]
     places = []
     for names in ((*others, name), others):
         world = World(scene.course, wind=scene.wind, effects=names)
@@ -238,6 +238,17 @@ def test_an_unknown_effect_is_named_with_the_known_ones():
     known = 'auto, ball_ball, bearman_harvey_1976, drag'
     with pytest.raises(ValueError, match=f"'rain' is unknown; known: {known}"):
         World(level(TURF), effects=('gravity', 'rain'))
+
+
+@pytest.mark.parametrize('names, said', [
+    (('gravity', 'dragg'), "; did you mean 'drag'"),
+    (('auto', 'wind'), 'auto stands alone'),
+    (('drag', 'ferguson_drag'), "'drag' and 'ferguson_drag' are two laws for the same"),
+    (('naruo_2004', 'ferguson_lift'), "'naruo_2004' and 'ferguson_lift' are two laws for the same"),
+    ('rain', "'rain' is unknown")])
+def test_names_that_do_not_go_together_are_refused(names, said):
+    with pytest.raises(ValueError, match=said):
+        choose(names, SCENES['wind'])
 
 
 def test_a_name_is_given_only_once():

@@ -8,6 +8,7 @@ without it, or '' if it can't. An idle effect is not compiled in, unless the fil
 the effect awakes. A file with ``INSTEAD_OF``, names of effects, is another law for the same: a scene
 gets it only by name. Other packages add theirs with :func:`register_effect`.
 """
+from difflib import get_close_matches
 import importlib
 import inspect
 import pkgutil
@@ -77,12 +78,11 @@ def choose(names, scene):
     Raises
     ------
     ValueError
-        Naming the unknown effect and the known ones.
+        Naming the unknown effect and the known ones, or two that are laws for the same.
     """
-    auto = names == 'auto' or tuple(names) == ('auto',)
-    for name in () if auto else names:
-        if name not in EFFECTS:
-            raise ValueError(f'effect {name!r} is unknown; known: auto, {", ".join(sorted(EFFECTS))}')
+    names = (names,) if isinstance(names, str) else tuple(names)
+    auto = names == ('auto',)
+    check(() if auto else names)
     on, off, records = {}, {}, []
     for name, effect in EFFECTS.items():
         asked = not effect.instead_of if auto else name in names
@@ -97,6 +97,21 @@ def choose(names, scene):
         if asked and effect.dormant:
             records.append(effect.dormant(scene))
     return Chosen(on, off, tuple(records), {} if auto else needless(names, scene))
+
+
+def check(names):
+    """Raise ValueError where `names` are not effects that can act together."""
+    laws_of = {}
+    for name in names:
+        if name == 'auto':
+            raise ValueError(f'effects {", ".join(names)}: auto stands alone, for all that a scene calls for')
+        if name not in EFFECTS:
+            close = get_close_matches(name, EFFECTS, 1)
+            hint = f'; did you mean {close[0]!r}?' if close else ''
+            raise ValueError(f'effect {name!r} is unknown; known: auto, {", ".join(sorted(EFFECTS))}{hint}')
+        for law in EFFECTS[name].instead_of or (name,):
+            if laws_of.setdefault(law, name) != name:
+                raise ValueError(f'effects {laws_of[law]!r} and {name!r} are two laws for the same; name one')
 
 
 def needless(names, scene):
