@@ -105,11 +105,15 @@ def submerged(ground, part, ball, radius, time, until, gap, bend, hollow):
     """Time for which a ball in a cut of `part`, or behind a one-sided sheet, is not clear of its plane yet.
 
     Along a straight way a convex gap stays below its chord, and the path strays from that way by at
-    most A s^2 / 2.
+    most A s^2 / 2. A cut goes on up to its outline, however near to its plane the ball moves.
     """
     place = position(ball, time)
     way = velocity(ball, time)
     least = max(-gap, 1e-6) / (length(way) + bend * until + 1e-3)
+    if surface.in_cut(ground, part, place):
+        distance, normal = surface.nearest(ground, part, place)
+        room = surface.room_in_plan(ground, along(place, -distance, normal))
+        least = max(least, room / (greatest_speed(ball) + 1e-9))
     if hollow > 0.0:
         return least
     left = until - time

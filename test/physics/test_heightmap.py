@@ -175,6 +175,15 @@ def test_a_ball_rolls_from_a_plane_on_to_a_map_that_begins_in_its_cut(accuracy):
     rolls_over(Course((cut, HILL)), (-1, -4.2), (3.26, -0.5, 0), (0, 0, 0), GRAVITY, accuracy)
 
 
+def test_a_plane_does_not_slow_a_ball_down_that_rolls_level_with_it_in_its_cut():
+    flat = surface(lambda x, y: 0 * x + 0 * y, GREEN, 0.5, (0, -5), (20, 5))
+    cut = Plane(material=GREEN, cut=(((0, -5), (20, -5), (20, 5), (0, 5)),))
+    world = World(Course((cut, flat)), effects=GRAVITY)
+    world.place('ball', (1.0, 0.3), (30.0, 2.0, 0.0))
+    world.advance(0.5)
+    assert world['ball'].position[0] > 10 and int(world._balls['evaluations'][0]) < 500
+
+
 @pytest.mark.parametrize('rise, rests', [(1.39, True), (1.41, False)])
 def test_a_ball_holds_where_5_7_of_the_slope_is_no_more_than_rolling_resistance(rise, rests):
     tilt = rise * 0.055

@@ -227,11 +227,18 @@ def _touchable(kind, part, point):
     if part >= len(kind.faces):
         return True
     face = kind.faces[part]
-    offset, h = offset_from_face(face, point)
-    if face['one_sided'] and h < 0.0:
+    _, h = offset_from_face(face, point)
+    return not (face['one_sided'] and h < 0.0 or laws.in_cut(kind, part, point))
+
+
+@laws.in_cut.register(Flats)
+def _in_cut(kind, part, point):
+    if part >= len(kind.faces):
         return False
+    face = kind.faces[part]
+    offset, _ = offset_from_face(face, point)
     place = sub(point, offset)
-    return not in_a_cut(kind, face, place[0], place[1])
+    return in_a_cut(kind, face, place[0], place[1])
 
 
 @laws.flat_under.register(Flats)

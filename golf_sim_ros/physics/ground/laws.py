@@ -61,6 +61,12 @@ def touchable(kind, part, point):
 
 
 @generic
+def in_cut(kind, part, point):
+    """Whether `part` is cut away, within an outline in plan, where it would be nearest to `point`."""
+    return False
+
+
+@generic
 def flat_under(kind, part, point):
     """Whether `part` is flat around the place nearest to `point`."""
     return False

@@ -67,6 +67,7 @@ turn = of_its_kind(laws.turn, ZERO)
 hollow = of_its_kind(laws.hollow, 0.0)
 flat_under = of_its_kind(laws.flat_under, False)
 in_plane = of_its_kind(laws.in_plane, False)
+in_cut = of_its_kind(laws.in_cut, False)
 limit = of_its_kind(laws.limit, (ZERO, ZERO))
 _touchable = of_its_kind(laws.touchable, False)
 sort = of_its_kind(laws.sort, laws.GROUND)
@@ -285,6 +286,16 @@ def depth(ground, point, radius):
             deepest = radius - distance
         part = next_part(ground, part + 1, low, high)
     return deepest
+
+
+@kernel
+def room_in_plan(ground, point):
+    """Distance in plan of `point` from the nearest border."""
+    room = 1e300
+    for i in range(len(ground.borders)):
+        away, _ = distance_in_plan(ground.borders[i], point[0], point[1])
+        room = min(room, away)
+    return room
 
 
 @kernel
