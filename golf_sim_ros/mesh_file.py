@@ -123,7 +123,7 @@ def cleaned(vertices, faces, name):
         raise CourseError('has no faces')
     if not 0 <= faces.min() <= faces.max() < len(vertices):
         raise CourseError(f'a face names a vertex that is none of the {len(vertices)} there are')
-    if not (np.abs(vertices[faces]) <= FAR).all():  # refuses not a number, too
+    if not (np.isfinite(vertices).all() and (np.abs(vertices[faces]) <= FAR).all()):
         raise CourseError(f'a vertex is not finite, or more than {FAR:g} m away')
     notes = []
     first, number = merged(vertices)

@@ -94,6 +94,7 @@ def test_faces_without_area_and_repeated_ones_are_dropped_and_told(read):
     ('a.obj', OBJ, 'has no faces'),
     ('a.obj', OBJ + 'f 1 2 5\n', 'a face names a vertex that is none of the 4 there are'),
     ('a.obj', OBJ + 'f 0 1 2\n', 'a face names a vertex that is none of the 4 there are'),
+    ('a.obj', OBJ + 'v nan 0 0\nf 1 2 3\n', 'a vertex is not finite'),
     ('a.obj', OBJ + 'f 1 2\n', 'is no OBJ file'),
     ('a.obj', OBJ + 'f 1 2 x\n', 'is no OBJ file'),
     ('a.obj', 'v 1 2\nf 1 1 1\n', 'is no OBJ file'),
