@@ -149,6 +149,7 @@ def test_a_ball_leaves_a_crest_where_gravity_no_longer_bends_its_path(share, fli
 
 HILL = surface(lambda x, y: 0.15 * np.sin(x * pi / 20) ** 2 * np.cos(y * pi / 10) ** 2, GREEN, 0.5,
                (0, -5), (20, 5))
+AROUND = Plane(material=GREEN, cut=(((0, -5), (20, -5), (20, 5), (0, 5)),))
 
 
 def rolls_over(course, start, velocity, spin, effects, accuracy):
@@ -171,14 +172,12 @@ def test_topspin_holds_a_ball_to_a_crest_from_where_its_weight_alone_would_let_i
 
 @pytest.mark.parametrize('accuracy', ACCURACY)
 def test_a_ball_rolls_from_a_plane_on_to_a_map_that_begins_in_its_cut(accuracy):
-    cut = Plane(material=GREEN, cut=(((0, -5), (20, -5), (20, 5), (0, 5)),))
-    rolls_over(Course((cut, HILL)), (-1, -4.2), (3.26, -0.5, 0), (0, 0, 0), GRAVITY, accuracy)
+    rolls_over(Course((AROUND, HILL)), (-1, -4.2), (3.26, -0.5, 0), (0, 0, 0), GRAVITY, accuracy)
 
 
 def test_a_plane_does_not_slow_a_ball_down_that_rolls_level_with_it_in_its_cut():
     flat = surface(lambda x, y: 0 * x + 0 * y, GREEN, 0.5, (0, -5), (20, 5))
-    cut = Plane(material=GREEN, cut=(((0, -5), (20, -5), (20, 5), (0, 5)),))
-    world = World(Course((cut, flat)), effects=GRAVITY)
+    world = World(Course((AROUND, flat)), effects=GRAVITY)
     world.place('ball', (1.0, 0.3), (30.0, 2.0, 0.0))
     world.advance(0.5)
     assert world['ball'].position[0] > 10 and int(world._balls['evaluations'][0]) < 500
