@@ -22,7 +22,7 @@ class Preset(NamedTuple):
 
 ACCURACY = {
     'sketch': Preset(DormandPrince(5e-3), Limits(settle=0.1, path=1e-6), touch=0.5, rest=1.0),
-    'standard': Preset(DormandPrince(7e-5), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2),
+    'standard': Preset(DormandPrince(2.3e-4), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2),
     'reference': Preset(DormandPrince(1e-10), Limits(settle=1e-3, path=1e-10), touch=1e-6, rest=1e-4),
 }
 

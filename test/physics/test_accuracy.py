@@ -2,6 +2,7 @@
 """What the presets promise; and that a path depends on its strike alone: on no tick, process or compiler."""
 from driving_range import DRIVE, EVERYTHING, HARD, TURF, first_touches, hilly, launched, level, random_shots
 from golf_sim_ros.physics import ACCURACY, Collision, Result, Shot, World, simulate, simulate_many
+from golf_sim_ros.physics.effects.wind import LogProfile, PowerProfile
 import numpy as np
 from other_process import run
 import pytest
@@ -41,6 +42,17 @@ def test_rests_on_level_ground_are_as_close_to_reference_as_promised(thousands, 
     wrong = distances(shots[accuracy]['position'], shots['reference']['position'])
     assert (shots[accuracy]['status'] == 'at_rest').all()
     assert 0 < wrong.max() < ACCURACY[accuracy].rest
+
+
+@pytest.mark.parametrize('profile', [LogProfile(), LogProfile(0.001), PowerProfile()])
+def test_a_wind_that_sets_in_steeply_at_the_ground_is_not_overlooked(profile):
+    course = level(TURF)._replace(wind_profile=profile)
+    velocities, spins = map(np.array, zip(DRIVE, SHOTS['approach'], SHOTS['chip']))
+    for wind in ((8.0, 0.0, 0.0), (0.0, 8.0, 0.0), (-8.0, 3.0, 0.0)):
+        shots = [simulate_many(course, velocities, spins, wind=wind, accuracy=accuracy)
+                 for accuracy in ('standard', 'reference')]
+        wrong = distances(*(first_touches(ends, velocities) for ends in shots))
+        assert 0 < wrong.max() < ACCURACY['standard'].touch
 
 
 def test_the_promises_are_those_of_the_documentation():

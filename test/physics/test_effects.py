@@ -7,7 +7,7 @@ from driving_range import HARD, TURF, level
 from golf_sim_ros.physics import ACCURACY, EFFECTS, Air, Shot, World, register_effect, simulate
 from golf_sim_ros.physics._compile import entry
 from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, laws, pull
-from golf_sim_ros.physics.model import build
+from golf_sim_ros.physics.model import build, ground
 import numpy as np
 from other_process import run
 import pytest
@@ -79,17 +79,18 @@ def test_an_effect_is_finite_and_repeatable(name, told):
 
 
 @entry
-def asked(effect, flow, force):
+def asked(effect, ground, flow, force):
     """What an effect says of a flying ball: acceleration, spin rate, longest step."""
     return (laws.acceleration(effect, flow), laws.spin_rate(effect, flow),
-            laws.longest_step(effect, flow, force, 2.0))
+            laws.longest_step(effect, ground, flow, force, 2.0))
 
 
 def said(name):
     """All that of one ball."""
     velocity, spin = (40.0, 3.0, 14.0), (20.0, -280.0, 10.0)
     flow = laws.Flow(velocity, float(np.linalg.norm(velocity)), spin, (1.0, 2.0, 30.0), velocity)
-    return asked(EFFECTS[name].record(SCENES['wind']), flow, (-8.0, 0.5, -6.0))
+    scene = SCENES['wind']
+    return asked(EFFECTS[name].record(scene), ground(scene.course), flow, (-8.0, 0.5, -6.0))
 
 
 @effects

@@ -176,7 +176,7 @@ def longest_step(effects, ground, state, force, wanted):
     """
     flow = meet_air(effects, ground, *state)
     for effect in literal_unroll(effects):
-        wanted = laws.longest_step(effect, flow, force, wanted)
+        wanted = laws.longest_step(effect, ground, flow, force, wanted)
     return wanted
 
 

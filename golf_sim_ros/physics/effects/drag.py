@@ -74,7 +74,7 @@ def _acceleration(effect, flow):
 
 
 @laws.longest_step.register(Drag)
-def turning_about(effect, flow, force, wanted):
+def turning_about(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook how drag of the square of the speed turns about."""
     return laws.passing(flow.velocity, force, CREEPING, wanted)
 

@@ -45,7 +45,7 @@ def _acceleration(effect, flow):
 
 
 @laws.longest_step.register(Foliage)
-def _longest_step(effect, flow, force, wanted):
+def _longest_step(effect, ground, flow, force, wanted):
     speed = length(flow.over_ground)
     way = inf
     for i in range(len(effect.bodies)):

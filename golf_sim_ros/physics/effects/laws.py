@@ -46,7 +46,7 @@ def spin_rate(effect, flow):
 
 
 @generic
-def longest_step(effect, flow, force, wanted):
+def longest_step(effect, ground, flow, force, wanted):
     """Longest step [s], `wanted` at most, that can't overlook `effect`.
 
     Of a ball in `flow` that `force` accelerates [m/s^2].
@@ -59,15 +59,15 @@ def passing(arrow, change, blunt, wanted):
     """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes through zero.
 
     A law that follows its direction turns about at once there, within `blunt` of its length. To first
-    order the arrow is shortest after a while, and the law bends within some width of that. Where the step
-    that is `wanted` is no longer than half of the former or than the latter, it will do: told without
-    division and root, for that is the rule.
+    order the arrow is shortest after a while, or was so before, and the law bends within some width of that.
+    Where the step that is `wanted` is no longer than half of the former or than the latter, it will do: told
+    without division and root, for that is the rule.
     """
     turning = dot(change, change)
     closing = -dot(arrow, change)
     off = dot(arrow, arrow)
     least = wanted * turning
-    if (closing <= 0.0 or closing >= 2.0 * least
+    if (abs(closing) >= 2.0 * least
             or (off + blunt * blunt) * turning - closing * closing >= least * least):
         return wanted
     return slowed(turning, closing, off, blunt, wanted)
@@ -78,7 +78,7 @@ def slowed(turning, closing, off, blunt, wanted):
     """`passing`, where it cuts the step; apart, or processors would divide and take the root each time."""
     ahead = closing / turning
     width = sqrt((max(off - closing * ahead, 0.0) + blunt * blunt) / turning)
-    return min(max(0.5 * ahead, width, BRIEF), wanted)
+    return min(max(0.5 * abs(ahead), width, BRIEF), wanted)
 
 
 @generic

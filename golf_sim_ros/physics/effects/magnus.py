@@ -8,6 +8,8 @@ from ..vector import ZERO, cross, dot, scale
 from . import laws
 from .drag import NO_FLOW, dynamic_push, reynolds_number
 
+BEND = 0.7  # of `early_at`: within so small a spin ratio of its zero the lift hardly bends
+
 
 class LiftLaw(NamedTuple):
     """Lift coefficient over the spin ratio S >= 0, for a Reynolds number Re; S times it is bounded.
@@ -63,9 +65,9 @@ def _acceleration(effect, flow):
 
 
 @laws.longest_step.register(Magnus)
-def _longest_step(effect, flow, force, wanted):
+def _longest_step(effect, ground, flow, force, wanted):
     # Lift turns about where the velocity sweeps past the axis of spin.
-    blunt = effect.law.early_at * flow.speed * flow.speed / effect.radius
+    blunt = BEND * effect.law.early_at * flow.speed * flow.speed / effect.radius
     return laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
 
 

@@ -30,7 +30,7 @@ def drag_and_lift(push, flow, ratio, drag, lift):
     return add(braking, scale(push * lift * fading * flow.speed * flow.speed / size, across))
 
 
-def turning_about(effect, flow, force, wanted):
+def turning_about(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook where drag or lift by a published law turns about."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
     wanted = laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)

@@ -12,6 +12,10 @@ from . import laws
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
 STILL = -1
+# A step ends at the latest where height over the ground, and the profile's roughness, has grown by so much of
+# itself: what a law does on its first centimetres would be over before any stage saw it.
+GROWTH = 2.0
+STEEP = 0.01  # m: the roughness where a profile has none
 
 
 class LogProfile(NamedTuple):
@@ -52,14 +56,26 @@ def share(effect, height):
     return 1.0
 
 
+@kernel
+def from_ground(ground, position):
+    """Height [m] of `position` over the ground under it."""
+    return position[2] - ground_height(ground, position[0], position[1])
+
+
 @laws.air_velocity.register(Wind)
 def _air_velocity(effect, ground, position):
     if effect.law == STILL:
         return ZERO
-    from_ground = position[2]
-    if effect.law != 0:
-        from_ground -= ground_height(ground, position[0], position[1])
-    return scale(share(effect, from_ground), vector(effect.velocity))
+    above = 0.0 if effect.law == 0 else from_ground(ground, position)
+    return scale(share(effect, above), vector(effect.velocity))
+
+
+@laws.longest_step.register(Wind)
+def _longest_step(effect, ground, flow, force, wanted):
+    if effect.law == STILL or effect.law == 0 or vector(effect.velocity) == ZERO:
+        return wanted
+    bending = max(from_ground(ground, flow.position), 0.0) + (effect.parameter if effect.law == 1 else STEEP)
+    return min(max(GROWTH * bending / max(abs(flow.over_ground[2]), 1e-9), laws.BRIEF), wanted)
 
 
 @laws.take_wind.register(Wind)

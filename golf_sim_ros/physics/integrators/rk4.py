@@ -21,17 +21,17 @@ class RungeKutta4(NamedTuple):
 
 
 @runge_kutta.table.register(RungeKutta4)
-def _table(method):
+def _table(method, brief):
     return TABLE
 
 
 @runge_kutta.first_step.register(RungeKutta4)
-def _first_step(method, speed, hop):
-    return method.length
+def _first_step(method, speed, hop, most):
+    return method.length, False
 
 
 @runge_kutta.next_step.register(RungeKutta4)
-def _next_step(method, h, error, flies):
+def _next_step(method, h, error, most):
     return method.length  # however short an event has made this one
 
 

@@ -22,34 +22,44 @@ NO_CHANGE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @generic
-def table(method):
+def table(method, brief):
     """Butcher's table of `method`: a row a stage; the last row is the solution's weights.
 
-    So the last stage holds the rates at the step's end, which the next step starts from.
+    So the last stage holds the rates at the step's end, which the next step starts from. Of a `brief` step
+    it may be one of fewer stages.
     """
     return NO_TABLE
 
 
 @generic
-def error_weights(method):
+def error_weights(method, brief):
     """Weights of the stages in the difference to the embedded method; empty where there is none."""
     return NO_ERROR
 
 
 @generic
-def first_step(method, speed, hop):
-    """Length [s] of the first step at `speed` through the air, of a flight of about `hop` seconds."""
-    return 0.01
+def allowed(method, ball):
+    """How far [m] a step of the ball's may err."""
+    return inf
 
 
 @generic
-def stands(method, h, error, flies):
-    """Whether a step of `h` with an `error` in metres may stand; a ball that `flies`, or is on the ground."""
+def first_step(method, speed, hop, most):
+    """Length [s] of the first step at `speed` through the air, of a flight of about `hop` seconds.
+
+    It may err by `most` [m]. And whether it is brief: see `table`.
+    """
+    return 0.01, False
+
+
+@generic
+def stands(method, h, error, most):
+    """Whether a step of `h` with an `error` [m] may stand that may err by `most`."""
     return True
 
 
 @generic
-def next_step(method, h, error, flies):
+def next_step(method, h, error, most):
     """Length [s] of the step after one of `h` with an `error` [m], or of that again if it can't stand."""
     return h
 
@@ -143,32 +153,33 @@ def hop(model, ball):
 @generic
 def step(method, model, ball):
     """Lay the next piece: one step from the ball's state. Writes curve, span, step."""
-    rows = table(method)
-    weights = error_weights(method)
-    last = len(rows) - 1
-    start(model, ball, last)
     h = ball['step']
     begins = h == 0.0
+    brief = False
+    most = allowed(method, ball)
     if begins:
-        h = first_step(method, airspeed(model, ball), hop(model, ball))
+        h, brief = first_step(method, airspeed(model, ball), hop(model, ball), most)
+    rows = table(method, brief)
+    weights = error_weights(method, brief)
+    last = len(rows) - 1
+    start(model, ball, last)
     whole = h
     h = longest(model, ball, h)
-    flies = ball['phase'] == FLIGHT
     while True:
         change = NO_CHANGE
         for i in range(1, last + 1):
             change = mix(ball, rows[i], i, h)
             stage(model, ball, i, state_after(ball, change))
         error = error_in_metres(ball, weights, h)
-        if stands(method, h, error, flies):
+        if stands(method, h, error, most):
             break
-        h = next_step(method, h, error, flies)
+        h = next_step(method, h, error, most)
     # The first step is often the last. Where nothing cut it, the next is as long: that spares a root.
-    ball['step'] = h if begins and h == whole else next_step(method, h, error, flies)
+    ball['step'] = h if begins and h == whole else next_step(method, h, error, most)
     first = ball['stages'][0]
     final = ball['stages'][last]
     ball['span'] = h
-    ball['rated'] = ball['begin'] + h
+    ball['rated'] = -1.0 if brief else ball['begin'] + h  # another table has its last stage elsewhere
     put(ball['origin'], vector(ball['position']))
     put(ball['twist'][3], along(vector(ball['spin']), 1.0, (change[6], change[7], change[8])))
     lay(ball, (change[0], change[1], change[2]), (vector(first[0:3]), vector(final[0:3])),
