@@ -19,8 +19,8 @@ from math import sqrt
 from ._compile import kernel, shared
 from .ground import surface
 from .ground.flat import FLUSH
-from .path import (corner, greatest_acceleration, greatest_speed, least_acceleration, position,
-                   span_along, velocity)
+from .path import (corner, falling, greatest_acceleration, greatest_speed, height, heights,
+                   least_acceleration, position, span_along, velocity)
 from .state import NO_PART
 from .vector import add, along, dot, length, sub, vector
 
@@ -31,11 +31,14 @@ GENTLE = 0.1  # m/s of approach: slower, a ball stays with the pile that it meet
 SAME = 1e-9  # m: distances that differ less are those of the same point
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 RISING = 1e-12  # m/s: more than the rounding error of a rate, and less than a nanosecond's acceleration
+PLAIN = 0.01  # m/s: what approaches faster, and is a microsecond away, will touch
 NEVER = 1e300
 MOST_STEPS = 200
+FEW = 4  # steps, after which it is worth looking whether a part's nearest face is the same all along
 CROWD = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
 BARELY = 1e-7  # s: a ball that leaves an edge sooner has left it
 SHORT = 4.0  # radii: a stretch with a box no longer than this is not worth halving
+NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, CAUGHT = range(5)
 
 
@@ -52,17 +55,21 @@ def safe_advance(gap, rate, bend):
 
 
 @kernel
-def closing_bend(ground, part, ball, normal, bend):
-    """Bound on how fast the rate of the gap to `part` can fall along the piece.
-
-    Where the whole piece sees one and the same `normal`, only acceleration along it counts: a ball
-    can fall along a wall without ever nearing it.
-    """
+def sees_one(ground, part, ball, normal):
+    """Whether the whole piece sees one and the same `normal` of a convex `part`."""
     for i in range(6):
         _, seen = surface.nearest(ground, part, corner(ball, i))
         if dot(seen, normal) < 1.0 - 1e-15:
-            return bend
-    return max(0.0, -least_acceleration(ball, normal))
+            return False
+    return True
+
+
+@kernel
+def over_plane(ground, part, ball, radius):
+    """Coefficients of the gap to `part`, of which the piece sees one normal, and how fast its rate falls."""
+    distance, normal = surface.nearest(ground, part, corner(ball, 0))
+    over = heights(ball, normal, distance - radius)
+    return over, falling(over, ball['span'])
 
 
 @kernel
@@ -124,17 +131,25 @@ def submerged(ground, part, ball, radius, time, until, gap, bend, hollow):
 @kernel
 def first_touch(ground, part, ball, radius, begin, until):
     """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then."""
-    bend = greatest_acceleration(ball)
     hollow = surface.hollow(ground, part)
     fastest = greatest_speed(ball) if hollow > 0.0 else 0.0
+    span = ball['span']
+    level = surface.is_plane(ground, part)
+    if level:
+        over, bend = over_plane(ground, part, ball, radius)
+    else:
+        over = NO_HEIGHTS
+        bend = greatest_acceleration(ball)
     time = begin
     for step in range(MOST_STEPS):
-        place = position(ball, time)
-        distance, normal = surface.nearest(ground, part, place)
-        gap = distance - radius
-        rate = dot(normal, velocity(ball, time))
+        if level:
+            gap, rate = height(over, span, time)
+        else:
+            distance, normal = surface.nearest(ground, part, position(ball, time))
+            gap = distance - radius
+            rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
-            if not surface.touchable(ground, part, place):
+            if not surface.touchable(ground, part, position(ball, time)):
                 time += submerged(ground, part, ball, radius, time, until, gap, bend, hollow)
                 if time >= until:
                     return until, False
@@ -153,9 +168,14 @@ def first_touch(ground, part, ball, radius, begin, until):
         if hollow > 0.0:
             time += past_hollows(hollow, distance, gap, rate, bend, fastest)
         else:
-            if step == 4:
-                bend = closing_bend(ground, part, ball, normal, bend)
-            time += safe_advance(gap, rate, bend)
+            if step == FEW and not level and sees_one(ground, part, ball, normal):
+                level = True
+                over, bend = over_plane(ground, part, ball, radius)
+            sure = safe_advance(gap, rate, bend)
+            time += sure
+            if (bend * sure * sure < TOUCH and rate < -PLAIN and time < until
+                    and surface.touchable(ground, part, position(ball, time))):
+                return time, True  # by then the gap is less than the square's half
         if time >= until:
             return until, False
     return time, False

@@ -146,6 +146,37 @@ def span_along(ball, axis):
 
 
 @kernel
+def heights(ball, normal, first):
+    """Bernstein coefficients of the piece's height over a plane of `normal`, `first` at its start."""
+    w = ball['path']
+    return (first, first + dot(vector(w[1]), normal), first + dot(vector(w[2]), normal),
+            first + dot(vector(w[3]), normal), first + dot(vector(w[4]), normal),
+            first + dot(vector(w[5]), normal))
+
+
+@kernel
+def height(g, span, time):
+    """Height `time` after the start of a piece of `span` and its rate, by its coefficients `g`."""
+    t = time / span
+    s = 1.0 - t
+    ss = s * s
+    tt = t * t
+    k = 5.0 / span
+    return (ss * ss * (s * g[0] + 5.0 * t * g[1]) + 10.0 * ss * tt * (s * g[2] + t * g[3])
+            + tt * tt * (5.0 * s * g[4] + t * g[5]),
+            k * (ss * ss * (g[1] - g[0]) + 4.0 * s * t * (ss * (g[2] - g[1]) + tt * (g[4] - g[3]))
+                 + 6.0 * ss * tt * (g[3] - g[2]) + tt * tt * (g[5] - g[4])))
+
+
+@kernel
+def falling(g, span):
+    """Bound on how fast the rate of a height with the coefficients `g` can fall over a piece of `span`."""
+    least = min(g[2] - 2.0 * g[1] + g[0], g[3] - 2.0 * g[2] + g[1], g[4] - 2.0 * g[3] + g[2],
+                g[5] - 2.0 * g[4] + g[3])
+    return max(0.0, -20.0 * least / (span * span))
+
+
+@kernel
 def stay(ball):
     """Make the piece stand still with the ball's spin, for `span`."""
     ball['span'] = 1.0

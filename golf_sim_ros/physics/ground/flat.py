@@ -251,6 +251,11 @@ def _flat_under(kind, part, point):
             and abs(dot(d, vector(face['across']))) <= face['half_width'] + ROUNDING)
 
 
+@laws.is_plane.register(Flats)
+def _is_plane(kind, part):
+    return part < len(kind.faces) and kind.faces[part]['solid'] != 0
+
+
 @laws.in_plane.register(Flats)
 def _in_plane(kind, part, point, normal):
     if part < len(kind.faces):

@@ -79,6 +79,12 @@ def in_plane(kind, part, point, normal):
 
 
 @generic
+def is_plane(kind, part):
+    """Whether `nearest` gives the same vector everywhere: of an endless plane, solid below."""
+    return False
+
+
+@generic
 def limits(kind):
     """Number of straight lines at which flat parts end, beside outlines in plan."""
     return 0
