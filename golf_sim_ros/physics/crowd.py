@@ -36,7 +36,7 @@ CONTACT = np.dtype([
 CONTACTS_A_BALL = 12
 ROOM = 1e-3  # m around the box of a ball of a pile, which seldom goes far
 NEIGHBOURS = 64  # balls that one of a pile may have in reach
-MEMBERS, CONTACTS, AGE = range(3)
+MEMBERS, CONTACTS, AGE, ASLEEP = range(4)
 
 
 class Crowd(NamedTuple):
@@ -64,7 +64,7 @@ def scratch(balls, collide):
     """`Crowd` of that many balls, which `collide`, or `Solo`."""
     solo = Solo(np.full(balls, np.inf), np.zeros(balls, np.int64), np.full(balls, -1, np.int64),
                 np.zeros((balls, 3)), np.zeros((balls, 6)), np.zeros(CONTACTS_A_BALL * balls + 8, CONTACT),
-                np.array([0, 0, balls]),
+                np.array([0, 0, balls, 0]),
                 np.zeros(0, np.int64))
     if not collide:
         return solo
@@ -74,6 +74,10 @@ def scratch(balls, collide):
 
 @others.prepare.register(Crowd)
 def _prepare(crowd, balls, radius):
+    crowd.count[ASLEEP] = 0
+    for i in range(len(balls)):
+        if balls[i]['leans']:
+            crowd.count[ASLEEP] = 1
     if crowd.count[AGE] >= len(balls):
         plant(crowd, balls, radius)
 

@@ -16,8 +16,8 @@ class Solo(NamedTuple):
 
     ``ends``: when each ball's piece ends; ``members``, ``contacts``: of the impact at hand; ``places``: index
     among the members of each ball, or -1; ``flow``: change of each member's velocity; ``before``: its motion
-    before the impact; ``count``: of members, of contacts, and of new pieces since the tree was built;
-    ``spent``: cycles by stage, or empty where nobody asks.
+    before the impact; ``count``: of members, of contacts, of new pieces since the tree was built; and whether
+    any balls may be asleep that lean on others; ``spent``: cycles by stage, or empty where nobody asks.
     """
 
     ends: np.ndarray

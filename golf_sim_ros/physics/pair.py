@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """When two balls touch: the gap between them is convex in their relative position, as with ground."""
+from math import sqrt
+
 from . import others, path
 from ._compile import kernel, shared
 from .crowd import Crowd, next_node
-from .detect import MOST_STEPS, PILE_NEAR, TANGENTIAL, TOUCH, box, safe_advance
+from .detect import MOST_STEPS, PILE_NEAR, SHORT, TANGENTIAL, TOUCH, box, is_long, safe_advance
 from .state import HOLED, MEETING, PILED, REST, STEP, moves
 from .vector import ZERO, add, dot, length, sub, unit, vector
 
 UP = (0.0, 0.0, 1.0)
+MANY = 6  # balls: so many in the box around a stretch of path are worth a shorter stretch
 STEADY = 0.02  # m/s of approach: so much gravity gives in a step of a pile
 
 
@@ -33,10 +36,10 @@ def gap_between(a, b, radius, now):
 
 
 @kernel
-def bend_between(a, b):
-    """Bound on the acceleration of one ball against the other: of two that fly alike it is nearly none."""
-    common = path.bend(a, 0) if moves(a['phase']) else ZERO
-    return strays_from(a, common) + strays_from(b, common)
+def usual_bend(ball):
+    """Acceleration as the ball's piece begins, and how far it strays from that, at most."""
+    usual = path.bend(ball, 0) if moves(ball['phase']) else ZERO
+    return usual, strays_from(ball, usual)
 
 
 @kernel
@@ -46,8 +49,25 @@ def strays_from(ball, acceleration):
         return length(acceleration)
     most = 0.0
     for i in range(4):
-        most = max(most, length(sub(path.bend(ball, i), acceleration)))
-    return most
+        off = sub(path.bend(ball, i), acceleration)
+        most = max(most, dot(off, off))
+    return sqrt(most)
+
+
+@kernel
+def stays_clear(here, other, bend, radius, now, until):
+    """Whether a ball whose place and velocity are `here` can't touch another one from `now` to `until`.
+
+    The gap stays above a parabola (see detect.py), which is lowest at its ends. Without a division: it is
+    asked of all that come near, and is true of nearly all.
+    """
+    place, velocity = here
+    apart = sub(place, place_at(other, now))
+    size = length(apart)
+    time = until - now
+    room = size - 2.0 * radius
+    closing = dot(apart, sub(velocity, velocity_at(other, now)))
+    return room > TOUCH and size * (room - 0.5 * bend * time * time) + time * closing > 0.0
 
 
 @kernel
@@ -65,9 +85,11 @@ def part_from(a, b, radius, now, until):
 
 
 @kernel
-def first_touch_of(a, b, radius, begin, until):
-    """Time from `begin` to `until` up to which two balls do not touch; whether they do then."""
-    bend = bend_between(a, b)
+def first_touch_of(a, b, bend, radius, begin, until):
+    """Time from `begin` to `until` up to which two balls do not touch; whether they do then.
+
+    `bend` bounds the acceleration of one against the other: of two that fly alike it is nearly none.
+    """
     now = begin
     for _ in range(MOST_STEPS):
         gap, rate, _ = gap_between(a, b, radius, now)
@@ -120,6 +142,7 @@ def end_at(crowd, balls, i, radius, now):
     """
     ball = balls[i]
     place = vector(ball['position'])
+    usual, stray = usual_bend(ball)
     reach = (radius, radius, radius)
     low = sub(place, reach)
     high = add(place, reach)
@@ -129,13 +152,25 @@ def end_at(crowd, balls, i, radius, now):
         other = balls[j]
         if moves(other['phase']) and other['end'] > now and not (other['piled']
                                                                  and is_held(other, ball, radius, now)):
-            time, touches = first_touch_of(other, ball, radius, now, other['end'])
+            bend = stray + strays_from(other, usual)
+            time, touches = first_touch_of(other, ball, bend, radius, now, other['end'])
             if touches or time < other['end']:
                 other['end'] = time
                 other['ending'] = MEETING if touches else STEP
                 other['target'] = i
                 crowd.ends[j] = time
         at = next_node(crowd, at + 1, low, high)
+
+
+@kernel
+def is_over_a_pile(crowd, balls, low, high):
+    """Whether many balls of a pile come into the box from `low` to `high`."""
+    found = 0
+    at = next_node(crowd, 0, low, high)
+    while at >= 0 and found < MANY:
+        found += balls[crowd.nodes[at]['ball']]['piled'] == PILED
+        at = next_node(crowd, at + 1, low, high)
+    return found == MANY
 
 
 @shared
@@ -146,6 +181,11 @@ def first_meeting(crowd, balls, i, radius, now):
     if stays_in_reach(ball) and not ball['watch']:
         return until, -1, False
     low, high = box(ball, 0.0, until - now, radius)
+    while is_long(low, high, SHORT * radius) and is_over_a_pile(crowd, balls, low, high):
+        until = now + 0.5 * (until - now)
+        low, high = box(ball, 0.0, until - now, radius)
+    usual, stray = usual_bend(ball)
+    here = place_at(ball, now), velocity_at(ball, now)
     best = until
     who = -1
     hit = False
@@ -156,8 +196,9 @@ def first_meeting(crowd, balls, i, radius, now):
         other = balls[j]
         if j != i and other['phase'] != HOLED and not (ball['piled'] and is_held(ball, other, radius, now)):
             last = min(best, other['end'])
-            if last >= now:
-                time, touches = first_touch_of(ball, other, radius, now, last)
+            bend = stray + strays_from(other, usual)
+            if last >= now and not stays_clear(here, other, bend, radius, now, last):
+                time, touches = first_touch_of(ball, other, bend, radius, now, last)
                 if touches and (time < best or not hit) or time < last:
                     best = time
                     who = j

@@ -15,7 +15,7 @@ from . import others
 from ._compile import kernel, shared
 from .caught import MANY_STALLS, is_caught
 from .contact import settle
-from .crowd import CONTACTS, MEMBERS, Crowd, next_node
+from .crowd import ASLEEP, CONTACTS, MEMBERS, Crowd, next_node
 from .detect import PILE_NEAR
 from .effects import pull
 from .ground import surface
@@ -108,6 +108,8 @@ def _lean(crowd, land, balls, i, now):
 
 @others.rouse.register(Crowd)
 def _rouse(crowd, balls, radius, now):
+    if not crowd.count[ASLEEP]:
+        return
     for k in range(crowd.count[MEMBERS]):
         i = crowd.members[k]
         if balls[i]['phase'] == REST:
@@ -142,7 +144,7 @@ def hold_pile(land, balls, now, crowd):
     for n in range(crowd.count[CONTACTS]):
         hold_up(land, balls, crowd.contacts[n])
     for k in range(crowd.count[MEMBERS]):
-        let_go(land, balls[crowd.members[k]], now)
+        let_go(land, balls[crowd.members[k]], now, crowd)
 
 
 @kernel
@@ -184,7 +186,7 @@ def find_contacts(land, balls, crowd, now):
 
 
 @kernel
-def let_go(land, ball, now):
+def let_go(land, ball, now, crowd):
     """Let a member rest, roll away, fly away, or stay in the pile. Writes motion and phase."""
     speed = length(vector(ball['velocity']))
     left = max(speed - ball['braking'], 0.0)
@@ -197,6 +199,7 @@ def let_go(land, ball, now):
     ball['step'] = 0.0
     if ball['calm'] > CALM_STEPS:
         ball['leans'] = 1 if ball['held'] > 1 else 0
+        crowd.count[ASLEEP] |= ball['leans']
         leave(ball)
         put(ball['velocity'], ZERO)
         put(ball['spin'], ZERO)
