@@ -19,7 +19,7 @@ from math import sqrt
 from ._compile import kernel, shared
 from .ground import surface
 from .ground.flat import FLUSH
-from .path import (corner, falling, greatest_acceleration, greatest_speed, height, heights,
+from .path import (bends, corner, greatest_acceleration, greatest_speed, height, heights,
                    least_acceleration, position, span_along, velocity)
 from .state import NO_PART
 from .vector import add, along, dot, length, sub, vector
@@ -66,10 +66,11 @@ def sees_one(ground, part, ball, normal):
 
 @kernel
 def over_plane(ground, part, ball, radius):
-    """Coefficients of the gap to `part`, of which the piece sees one normal, and how fast its rate falls."""
+    """Coefficients of the gap to `part`, of which the piece sees one normal; how fast its rate falls and rises."""
     distance, normal = surface.nearest(ground, part, corner(ball, 0))
     over = heights(ball, normal, distance - radius)
-    return over, falling(over, ball['span'])
+    falls, rises = bends(over, ball['span'])
+    return over, falls, rises
 
 
 @kernel
@@ -135,8 +136,9 @@ def first_touch(ground, part, ball, radius, begin, until):
     fastest = greatest_speed(ball) if hollow > 0.0 else 0.0
     span = ball['span']
     level = surface.is_plane(ground, part)
+    rises = NEVER
     if level:
-        over, bend = over_plane(ground, part, ball, radius)
+        over, bend, rises = over_plane(ground, part, ball, radius)
     else:
         over = NO_HEIGHTS
         bend = greatest_acceleration(ball)
@@ -170,12 +172,12 @@ def first_touch(ground, part, ball, radius, begin, until):
         else:
             if step == FEW and not level and sees_one(ground, part, ball, normal):
                 level = True
-                over, bend = over_plane(ground, part, ball, radius)
+                over, bend, rises = over_plane(ground, part, ball, radius)
             sure = safe_advance(gap, rate, bend)
             time += sure
-            if (bend * sure * sure < TOUCH and rate < -PLAIN and time < until
+            if (max(bend, rises) * sure * sure < TOUCH and rate < -PLAIN and time < until
                     and surface.touchable(ground, part, position(ball, time))):
-                return time, True  # by then the gap is less than the square's half
+                return time, True  # by then the gap is the square's half at most, either way
         if time >= until:
             return until, False
     return time, False

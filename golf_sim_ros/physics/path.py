@@ -169,11 +169,14 @@ def height(g, span, time):
 
 
 @kernel
-def falling(g, span):
-    """Bound on how fast the rate of a height with the coefficients `g` can fall over a piece of `span`."""
-    least = min(g[2] - 2.0 * g[1] + g[0], g[3] - 2.0 * g[2] + g[1], g[4] - 2.0 * g[3] + g[2],
-                g[5] - 2.0 * g[4] + g[3])
-    return max(0.0, -20.0 * least / (span * span))
+def bends(g, span):
+    """How fast the rate of a height with the coefficients `g` falls, and rises, over a piece at most."""
+    a = g[2] - 2.0 * g[1] + g[0]
+    b = g[3] - 2.0 * g[2] + g[1]
+    c = g[4] - 2.0 * g[3] + g[2]
+    d = g[5] - 2.0 * g[4] + g[3]
+    k = 20.0 / (span * span)
+    return max(0.0, -k * min(a, b, c, d)), max(0.0, k * max(a, b, c, d))
 
 
 @kernel
