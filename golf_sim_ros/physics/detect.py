@@ -66,7 +66,7 @@ def sees_one(ground, part, ball, normal):
 
 @kernel
 def over_plane(ground, part, ball, radius):
-    """Coefficients of the gap to `part`, of which the piece sees one normal; how fast its rate falls and rises."""
+    """Coefficients of the gap to `part`, seen with one normal all along; how fast its rate falls, rises."""
     distance, normal = surface.nearest(ground, part, corner(ball, 0))
     over = heights(ball, normal, distance - radius)
     falls, rises = bends(over, ball['span'])
