@@ -249,6 +249,17 @@ def test_a_ball_stays_outside_the_walls_of_a_map():
         assert world['ball'].position[0] <= -RADIUS + 1e-6
 
 
+@pytest.mark.parametrize('speed', [2.7, 2.75, 3.0])
+def test_a_ball_that_falls_past_a_wall_meets_no_back_of_the_ground_beyond_it(speed):
+    heights = [[0.1, 0.26, 0.39, 0.28, 0.25], [0, 0.33, 0.06, 0.04, 0], [0.39, 0.4, 0.25, 0.32, 0.39],
+               [0.31, 0, 0.39, 0.15, 0.33], [0.25, 0.1, 0, 0.19, 0.05]]
+    world = World(Course((Plane((0, 0, -1), material=GREEN), Heightmap(heights, (-1, -1), 0.5, GREEN)),
+                         tee=(9, 0)), effects=GRAVITY)
+    world.place('ball', (0.9, 0, 1.0), (0, -speed, 0))
+    assert world.advance(0.6) == []
+    assert world['ball'].position == pytest.approx((0.9, -0.6 * speed, 1.0 - 0.18 * G), abs=1e-9)
+
+
 COURSE = '''format: 1
 ground:
   - {shape: heightmap, heights: green.npy, origin: [-1, -1], spacing: 0.5, material: green}

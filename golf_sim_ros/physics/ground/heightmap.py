@@ -216,16 +216,27 @@ def _nearest(kind, part, point):
     sign = -1.0 if is_below(kind, grid, part, local, offset, (x, y), at) else 1.0
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < x < x1 and y0 < y < y1:  # the slopes tell the normal better than a short offset
-        return dot(offset, upright), upright
+        away = dot(offset, upright)
+        return sign * abs(away), scale(-1.0 if sign * away < 0.0 else 1.0, upright)
     return sign * length(offset), unit(scale(sign, offset), upright)
+
+
+@kernel
+def is_over(grid, local):
+    """Whether a point is within the map's outline, seen from above."""
+    size = grid['spacing']
+    return 0.0 <= local[0] <= grid['nx'] * size and 0.0 <= local[1] <= grid['ny'] * size
 
 
 @shared
 def is_below(kind, grid, part, local, offset, place, at):
-    """Whether a point is under `part`, a cell or a map, whose nearest `place` is `offset` away."""
+    """Whether a point is under `part`, a cell or a map, whose nearest `place` is `offset` away.
+
+    Past a wall a point is outside, though it be nearest to the back of ground that falls away from there.
+    """
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < place[0] < x1 and y0 < place[1] < y1:
-        return dot(offset, (-at[1], -at[2], 1.0)) < 0.0
+        return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over(grid, local)
     return (x0 < local[0] < x1 and y0 < local[1] < y1
             and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0])
 
