@@ -217,7 +217,8 @@ def _nearest(kind, part, point):
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < x < x1 and y0 < y < y1:  # the slopes tell the normal better than a short offset
         away = dot(offset, upright)
-        return sign * abs(away), scale(-1.0 if sign * away < 0.0 else 1.0, upright)
+        facing = -1.0 if away < 0.0 < sign else 1.0  # past a wall, towards the back
+        return facing * away, scale(facing, upright)
     return sign * length(offset), unit(scale(sign, offset), upright)
 
 
@@ -339,9 +340,8 @@ def _top(kind, x, y):
     who = -1
     for i in range(len(kind.grids)):
         grid = kind.grids[i]
-        u = x - grid['origin'][0]
-        v = y - grid['origin'][1]
-        if 0.0 <= u <= grid['nx'] * grid['spacing'] and 0.0 <= v <= grid['ny'] * grid['spacing']:
+        u, v, _ = local = from_origin(grid, (x, y, 0.0))
+        if is_over(grid, local):
             z = bicubic(kind.nodes, grid, u, v)[0]
             if z >= best - SAME_HEIGHT:
                 best = max(best, z)
