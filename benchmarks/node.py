@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """`sim_node` in a process of its own, balls in flight all the time: its share of a core, and its pace.
 
-Somebody listens to the balls' poses: what nobody listens to is not made.
+Somebody listens to the balls' poses, for what nobody listens to is not made; but does not read them, or
+reading would take as much of the machine as simulating.
 """
 import json
 import os
@@ -66,9 +67,12 @@ def watched(sim, balls, seconds):
     from geometry_msgs.msg import PoseStamped, Twist
     import rclpy
     from rclpy.qos import QoSProfile
+    from golf_sim_ros.spinning import EventsExecutor
     from std_msgs.msg import String
     rclpy.init()
     node = rclpy.create_node('golfer')
+    executor = EventsExecutor()
+    executor.add_node(node)
     clubs = {ball: node.create_publisher(Twist, f'{ball}/shot', 10) for ball in balls}
     told, seen = [], []
 
@@ -81,14 +85,14 @@ def watched(sim, balls, seconds):
         told.append({pair.key: pair.value for status in message.status for pair in status.values})
 
     for ball in balls:
-        node.create_subscription(PoseStamped, f'{ball}/pose', seen.append, 10)
+        node.create_subscription(PoseStamped, f'{ball}/pose', seen.append, 10, raw=True)
     node.create_subscription(DiagnosticArray, '/diagnostics', note, 10)
     node.create_subscription(String, 'shot/result', lambda m: strike(json.loads(m.data)['ball']),
                              QoSProfile(depth=100))
 
     def spin(until, done=lambda: False):
         while monotonic() < until and not done():
-            rclpy.spin_once(node, timeout_sec=0.1)
+            executor.spin_once(timeout_sec=0.1)
 
     try:
         spin(monotonic() + PATIENCE,

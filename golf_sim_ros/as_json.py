@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results and collisions as JSON, as the topics tell them."""
+"""Results, collisions and balls as JSON, as the topics tell them."""
+from functools import lru_cache
 import json
 from math import isfinite
+
+import numpy as np
+
+from .physics.state import BALL, OF_TICK, plain_of_piece, plain_of_tick
 
 RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time',
           'duration', 'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time',
@@ -9,6 +14,8 @@ RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'ape
 REJECTION = ('shot', 'ball', 'status', 'velocity', 'spin', 'reason')
 COLLISION = ('time', 'ball', 'kind', 'with', 'position', 'normal', 'velocity_before',
              'velocity_after', 'spin_before', 'spin_after', 'impulse')
+ENCODER = json.JSONEncoder(allow_nan=False)
+TICK_BYTES = BALL.fields[BALL.names[len(OF_TICK)]][1]
 DIGITS = 4  # of lengths, speeds and angles in a result; `time` has two more
 
 
@@ -32,6 +39,28 @@ def rejection_text(shot, ball, velocity, spin, reason):
     return text(dict(zip(REJECTION, values)))
 
 
+class Written(str):
+    """JSON already."""
+
+
+def state_text(world):
+    """`world.state()`, of which the balls are `Written`."""
+    state = world.state(ball_text)
+    balls = ', '.join(f'"{name}": {ball}' for name, ball in state['balls'].items())
+    return {**state, 'balls': Written(f'{{{balls}}}')}
+
+
+def ball_text(ball):
+    """One JSON object, what `physics.state.plain` tells of a `BALL` record."""
+    return f'{text(plain_of_tick(ball))[:-1]}, {piece_text(ball.tobytes()[TICK_BYTES:])[1:]}'
+
+
+@lru_cache(maxsize=1000)
+def piece_text(record):
+    """The part that lasts for many ticks; `record` are the bytes after those that a tick writes."""
+    return text(plain_of_piece(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
+
+
 def plain(value, digits):
     """`value` for JSON: floats rounded, or None where not finite; never a negative zero."""
     if isinstance(value, float):
@@ -43,4 +72,4 @@ def plain(value, digits):
 
 def text(values):
     """`values` as JSON; numbers come back as they were, to the bit."""
-    return json.dumps(values, allow_nan=False)
+    return ENCODER.encode(values)

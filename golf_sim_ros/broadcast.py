@@ -73,15 +73,14 @@ class Broadcast:
             self.next_clock = now + CLOCK_PERIOD
             self.clock.publish(Clock(clock=self.head(self.world.time).stamp))
 
-    def tell_balls(self, names, orientations):
-        """Poses and twists of balls."""
+    def tell_balls(self, balls, orientations):
+        """Poses and twists of `balls`, by name."""
         head = self.head(self.world.time)
-        for name in names:
-            pose, twist = self.poses[name], self.twists[name]
-            if heard(pose):
-                pose.publish(messages.pose(head, self.world[name], orientations[name]))
-            if heard(twist):
-                twist.publish(messages.twist(head, self.world[name]))
+        for name, ball in balls.items():
+            if heard(self.poses[name]):
+                self.poses[name].publish(messages.pose(head, ball, orientations[name]))
+            if heard(self.twists[name]):
+                self.twists[name].publish(messages.twist(head, ball))
 
     def tell_collision(self, collision):
         """A contact, as JSON and as a point."""

@@ -5,6 +5,7 @@ from time import perf_counter
 import numpy as np
 
 from . import account, messages
+from .as_json import state_text
 from .diagnosis import Diagnosis, SLOW
 from .journal import Journal
 from .pace import Pace
@@ -123,7 +124,7 @@ class Game:
     def strike(self, name, velocity, spin):
         """Strike a ball; a bad shot has its result at once."""
         self.shots += 1
-        before = self.world.state()
+        before = state_text(self.world)
         try:
             self.world.strike(name, velocity, spin)
         except Rejected as error:
@@ -194,9 +195,11 @@ class Game:
         """The time, and balls that move or have just stopped."""
         moving = set(self.world.in_motion)
         self.broadcast.tell_time()
-        self.broadcast.tell_balls(self.world.names if all_of_them else moving | self.awake, self.orientations)
+        balls = {name: self.world[name]
+                 for name in (self.world.names if all_of_them else moving | self.awake)}
+        self.broadcast.tell_balls(balls, self.orientations)
         for name in moving:
-            self.broadcast.scene.trails[name].add(self.world[name].position)
+            self.broadcast.scene.trails[name].add(balls[name].position)
         self.awake = moving
 
     def scene_due(self):

@@ -12,7 +12,7 @@ import platform
 from zlib import crc32
 
 from . import __version__
-from .as_json import text
+from .as_json import text, Written
 from .physics._compile import source_key
 
 SEAL = ', "crc32": '
@@ -85,7 +85,9 @@ def _processor():
 
 def sealed(entry):
     """Text of an entry, with its checksum."""
-    body = text(entry)[:-1]
+    parts = (f'"{key}": {value if isinstance(value, Written) else text(value)}'
+             for key, value in entry.items())
+    body = '{' + ', '.join(parts)
     return f'{body}{SEAL}{crc32(body.encode())}}}'
 
 

@@ -82,15 +82,25 @@ ENDED = np.dtype([(name, BALL[name]) for name in (
     'phase', 'support', 'material', 'position', 'struck', 'struck_at', 'launch', 'launch_spin', 'highest',
     'landed', 'landing', 'landed_at', 'landing_velocity', 'bounces', 'ended', 'over_time')], align=True)
 
-# What counts of a ball that does not move: the rest is written when it sets off.
-STANDING = ('position', 'velocity', 'spin', 'phase', 'support', 'material', 'normal', 'tail_end',
-            'tail_press', 'tail_air', 'leans')
+OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its piece
+# What counts of all else if the ball does not move: the rest is written when it sets off.
+STANDING = ('phase', 'support', 'material', 'normal', 'tail_end', 'tail_press', 'tail_air', 'leans')
 PRESSED = ('pressing', 'pressed_by', 'pressed')  # the same of a ball that is not in a pile
 
 
 def plain(ball):
     """All that counts of a `BALL` record, as numbers and lists by name."""
-    names = BALL.names if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
+    return {**plain_of_tick(ball), **plain_of_piece(ball)}
+
+
+def plain_of_tick(ball):
+    """The part of `plain` that every tick changes."""
+    return {name: ball[name].tolist() for name in OF_TICK}
+
+
+def plain_of_piece(ball):
+    """The part of `plain` that lasts as long as the ball's piece of path."""
+    names = BALL.names[len(OF_TICK):] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
     if not ball['piled']:
         names = [name for name in names if name not in PRESSED]
     return {name: ball[name].tolist() for name in names}

@@ -373,9 +373,12 @@ class World:
         apart = np.linalg.norm(others['position'] - place, axis=1)
         return not (apart < 2.0 * self._model.land.ball.radius - surface.SAME_HEIGHT).any()
 
-    def state(self):
-        """All that decides how the play goes on, as numbers, text, lists and dicts; see `restore`."""
-        balls = {name: plain(ball) for name, ball in zip(self.names, self._balls)}
+    def state(self, written=plain):
+        """All that decides how the play goes on, as numbers, text, lists and dicts; see `restore`.
+
+        `written` makes what stands for a ball out of its `BALL` record.
+        """
+        balls = {name: written(ball) for name, ball in zip(self.names, self._balls)}
         return {'time': self.time, 'clock': self._now, 'accuracy': self.accuracy, 'wind': list(self._wind),
                 'balls': balls}
 

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Balls as JSON; no ROS."""
+import json
+
+from golf_sim_ros.as_json import state_text
+from golf_sim_ros.course import load_course
+from golf_sim_ros.journal import opened, sealed
+from golf_sim_ros.physics import World
+
+
+def test_a_state_is_written_as_it_is_at_every_tick():
+    world = World(load_course('golf_without_friends'), 4)
+    for number, name in enumerate(world.names[:3]):  # the last one rests
+        world.strike(name, (4.0 + number, 0.1, 3.0), (0.0, -100.0, 20.0))
+    clock = set()
+    while world.moving:
+        world.advance(0.1)
+        state = json.loads(json.dumps(world.state()))
+        clock.add(state['clock'])
+        assert opened(sealed({'entry': 0, **state_text(world)})) == {'entry': 0, **state}
+    assert len(clock) > 20
