@@ -154,8 +154,10 @@ def _played(course, strikes, gusts, effects, accuracy, progress=None):
     # The strongest gust decides whether there is wind at all.
     strongest = gusts[np.argmax(np.linalg.norm(gusts[:, 1:], axis=1)), 1:]
     world = World(course, effects=effects, accuracy=accuracy, wind=strongest)
+    # What is off stays off until the last shot ends, so nothing dormant is compiled in.
+    awake = world._model._replace(effects=model.in_flight(world._chosen.on.values()))
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    ends = [play_all(world._model, world._balls, part, gusts, world._crowd, world._log)
+    ends = [play_all(awake, world._balls, part, gusts, world._crowd, world._log)
             for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
     return summary(np.concatenate(ends), course.hole, world._materials)
 

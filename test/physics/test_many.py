@@ -49,3 +49,13 @@ def test_progress_sees_every_part(threads, monkeypatch):
     assert found.tobytes() == alone().tobytes()
     if executor:
         executor.shutdown()
+
+
+@pytest.mark.parametrize('wind', [(0.0, 0.0, 0.0), (3.0, 0.0, 0.0)])
+def test_kernels_see_no_effect_that_is_off(monkeypatch, wind):
+    seen = []
+    play_all = play.play_all
+    monkeypatch.setattr(play, 'play_all', lambda model, *rest: seen.append(model) or play_all(model, *rest))
+    simulate_many(level(TURF), VELOCITIES[:1], SPINS[:1], wind)
+    types = {type(effect).__name__ for model in seen for effect in model.effects}
+    assert 'Drag' in types and 'Water' not in types and ('Wind' in types) == any(wind)
