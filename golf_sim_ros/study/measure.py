@@ -120,19 +120,23 @@ def timed(*plays):
     singles = tuple(clocked(play, 1) for play in plays)
     if max(singles) > LONG_CALL:
         return singles
-    sizes = [enough(play) for play in plays]
-    rounds = [[(clocked(play, count) - single) / (count - 1) for play, (single, count) in zip(plays, sizes)]
+    counts = [enough(play) for play in plays]
+    rounds = [[(clocked(play, count) - clocked(play, 1)) / (count - 1) for play, count in zip(plays, counts)]
               for _ in range(REPEATS)]
     return tuple(float(t) for t in np.median(rounds, axis=0))
 
 
 def enough(play):
-    """Time [s] of a call for one shot, and how many shots take long enough to be timed."""
-    single = min(clocked(play, 1) for _ in range(REPEATS))
-    count = 2
-    while clocked(play, count) - single < BATCH_TIME and count < MOST_SHOTS:
+    """How many shots take long enough to be timed, also against a call for one, which is taken off."""
+    single, count = fastest(play, 1), 2
+    while fastest(play, count) - single < max(BATCH_TIME, 0.5 * single) and count < MOST_SHOTS:
         count *= 4
-    return single, count
+    return count
+
+
+def fastest(play, count):
+    """Least time [s] of several calls."""
+    return min(clocked(play, count) for _ in range(3))
 
 
 def clocked(play, count):
