@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The game in time: what arrives is applied between ticks, what happens is told."""
-from time import perf_counter
+from time import perf_counter, thread_time
 
 import numpy as np
 
@@ -33,10 +33,13 @@ class Game:
         Where shots are told to people.
     given : Parameters
         Its rates are those of ticks and of steps.
+    takeover : Takeover
+        Told what the play costs, and asked between shots which engine goes on.
     """
 
-    def __init__(self, world, broadcast, refusals, log, given):
+    def __init__(self, world, broadcast, refusals, log, given, takeover):
         self.world, self.broadcast, self.refusals, self.log = world, broadcast, refusals, log
+        self.takeover = takeover
         self.pace = Pace(1.0 / given.rate, max(1, round(given.rate / given.publish_rate)),
                          given.real_time_factor)
         self.busy = min(BUSY / given.publish_rate, LONGEST_BUSY)
@@ -50,6 +53,8 @@ class Game:
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
         self.paused = False
+        self.began = perf_counter()  # of the last advance
+        self.spent = 0.0  # s of processor time on physics
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
         self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
         self.awake = set()  # balls whose pose was still changing when last told
@@ -64,6 +69,8 @@ class Game:
     def step(self):
         """Let the time pass that has passed on the clock, apply what arrived, tell."""
         self.advance()
+        if not self.world.moving:
+            self.takeover.between_shots()
         if not self.paused:
             self.apply()
         with self.diagnosis.publishing():
@@ -71,6 +78,7 @@ class Game:
 
     def advance(self):
         """Advance by as many whole ticks as are due; where they are many, tell in between."""
+        passed, self.began = perf_counter() - self.began, perf_counter()
         if self.paused:
             self.pace.skip()
             return
@@ -78,6 +86,13 @@ class Game:
         if self.pace.hurries and not moving:
             self.pace.skip()
             return
+        spent = self.spent
+        self.advance_by_portions(moving)
+        if moving:
+            self.takeover.note(self.spent - spent, passed)
+
+    def advance_by_portions(self, moving):
+        """Advance by the ticks that are due."""
         done = 0
         for ticks in self.pace.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
             if done and self.world.moving:
@@ -93,11 +108,12 @@ class Game:
 
     def tick(self):
         """Advance by one tick and tell what happened in it."""
-        began = perf_counter()
+        began, spent = perf_counter(), thread_time()
         events = self.world.advance(self.pace.tick)
         self.ticks += 1
         self.diagnosis.note_tick(perf_counter() - began)
         self.world.turn(self.turned, self.pace.tick)
+        self.spent += thread_time() - spent
         if events:
             with self.diagnosis.publishing():
                 self.tell_events(events)
@@ -216,4 +232,5 @@ class Game:
             self.log.warning(f'slower than the clock: {self.diagnosis.factor:.3g} simulated seconds a second '
                              f'instead of {self.pace.factor:g}; no tick is left out, the play is the same',
                              throttle_duration_sec=1.0)
-        self.broadcast.tell_diagnosis(slow, self.diagnosis.values(self.world, self.pace.lost))
+        self.broadcast.tell_diagnosis(slow, {
+            **self.diagnosis.values(self.world, self.pace.lost), **self.takeover.values()})

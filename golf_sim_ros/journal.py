@@ -7,13 +7,12 @@ stands before it, so that a changed byte is noticed.
 """
 from importlib.metadata import PackageNotFoundError, version
 import json
-import os
 import platform
 from zlib import crc32
 
 from . import __version__
 from .as_json import text, Written
-from .physics._compile import source_key
+from .physics.jit.cache import source_key
 
 SEAL = ', "crc32": '
 
@@ -63,8 +62,7 @@ def standing(ball):
 def made_with():
     """What bits depend on, beside this package: they are promised where it is the same."""
     return {'physics': source_key(), 'python': platform.python_version(), 'numpy': _version('numpy'),
-            'numba': _version('numba'), 'compiled': os.environ.get('NUMBA_DISABLE_JIT', '0') in ('', '0'),
-            'processor': _processor()}
+            'numba': _version('numba'), 'processor': _processor()}
 
 
 def _version(name):
@@ -75,12 +73,13 @@ def _version(name):
 
 
 def _processor():
-    """The processor's name as compilers call it, or at least its family."""
+    """The processor's name, or at least its family: what compilers and mathematical libraries adapt to."""
     try:
-        from llvmlite.binding import get_host_cpu_name
-    except ImportError:
-        return platform.machine()
-    return f'{platform.machine()} {get_host_cpu_name()}'
+        with open('/proc/cpuinfo', encoding='utf-8') as file:
+            names = [line.partition(':')[2].strip() for line in file if line.startswith('model name')]
+    except OSError:
+        names = []
+    return ' '.join([platform.machine(), *names[:1]])
 
 
 def sealed(entry):

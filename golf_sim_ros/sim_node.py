@@ -2,7 +2,6 @@
 """The node that plays: shots and wind come in, the play goes out."""
 from functools import partial
 import sys
-from threading import Timer
 from time import perf_counter
 
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped
@@ -21,13 +20,11 @@ from .physics import World
 from .physics.world import checked_wind
 from .refusals import Refusals
 from .spinning import run
+from .takeover import load_compiled, Takeover
 
 COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
 # Asks for the least, so it matches every publisher; only the newest wind counts.
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-PATIENCE = 1.5  # s; a start that compiles nothing is done by then
-WAITING = ('waiting for the physics to be compiled: the first start with these effects does that, for up to '
-           'a minute; later ones find it done')
 EXAMPLE = '{linear: {x: 65.0, z: 14.0}, angular: {y: -280.0}}'
 
 
@@ -53,7 +50,8 @@ class SimNode(Node):
         self.world = self.new_world(given)
         self.frame, self.refusals = given.frame_id, Refusals(self.get_logger())
         broadcast = Broadcast(self, self.world, given, self.on_viewer, self.on_follower)
-        self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given)
+        takeover = Takeover(self.world, given.engine, self.get_logger())
+        self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given, takeover)
         self.game.journal.config(self.world, given._asdict(), broadcast.began)
         self.subscribe(given)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -62,17 +60,12 @@ class SimNode(Node):
         self.introduce()
 
     def new_world(self, given):
-        """World as `given`, compiled before anybody can strike: no shot shall wait for a compiler."""
+        """World as `given`, ready: no shot shall wait for a compiler."""
         began = perf_counter()
-        notice = Timer(PATIENCE, self.get_logger().info, [WAITING])
-        notice.daemon = True
-        notice.start()
-        try:
-            world = World(load_course(given.course), given.balls, given.effects, given.accuracy)
-            world.compile()
-        finally:
-            notice.cancel()
-        self.get_logger().info(f'physics loaded in {perf_counter() - began:.1f} s')
+        world = World(load_course(given.course), given.balls, given.effects, given.accuracy, engine='python')
+        if given.engine == 'compiled':
+            load_compiled(world, self.get_logger())
+        self.get_logger().info(f'physics loaded in {perf_counter() - began:.1f} s, engine {world.engine}')
         return world
 
     def subscribe(self, given):

@@ -16,7 +16,6 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from golf_sim_ros.physics.air import Air, density, viscosity
-from golf_sim_ros.physics._compile import plain
 from golf_sim_ros.physics.effects.drag import DragLaw, drag_coefficient
 from golf_sim_ros.physics.effects.magnus import LiftLaw, lift_per_ratio
 
@@ -67,7 +66,7 @@ def drag_and_lift(laws, ratio, reynolds):
     return np.array(pairs).T
 
 
-cd, cl = plain(drag_coefficient), plain(lift_per_ratio)
+cd, cl = drag_coefficient, lift_per_ratio
 
 
 def fly(laws, speed, launch, spin):

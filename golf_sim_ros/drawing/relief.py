@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..physics import model
-from ..physics._compile import borrowed, entry
+from ..physics.jit import borrowed, entry
 from ..physics.ground import surface
 
 

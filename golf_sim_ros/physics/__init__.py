@@ -5,6 +5,7 @@ from .advance import cycles_now
 from .air import Air, standard_atmosphere
 from .course import Ball, Course
 from .effects import EFFECTS, register_effect
+from .engine import ENGINES
 from .effects.wind import LogProfile, PowerProfile, UniformProfile
 from .ground.heightmap import Heightmap
 from .ground.mesh import Mesh
@@ -13,6 +14,7 @@ from .ground.plane import Plane
 from .ground.solid import Cylinder, Sphere
 from .ground.water import Water
 from .integrators import METHODS
+from .jit import Unavailable as EngineUnavailable
 from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
 from .play import Play, check_hole, ground_height, simulate, simulate_many
 from .report import Collision, Result
@@ -20,7 +22,8 @@ from .state import Phase, Shot
 from .world import BallState, Rejected, World
 
 __all__ = [
-    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'Heightmap',
+    'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS',
+    'ENGINES', 'EngineUnavailable', 'Heightmap',
     'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
     'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile',
     'Water', 'World', 'check_hole', 'cycles_now',

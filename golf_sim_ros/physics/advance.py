@@ -9,7 +9,7 @@ import numpy as np
 
 from . import bump, pair, pile  # noqa: F401  (they say what balls do to each other)
 from . import others
-from ._compile import borrowed, cycles, entry, kernel, shared
+from .jit import borrowed, cycles, entry, kernel, shared
 from .caught import hold, is_caught
 from .contact import settle
 from .crowd import MEMBERS, first_due

@@ -8,7 +8,7 @@ geometric series, and what is left is taken at once when it no longer counts.
 """
 from math import inf
 
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .contact import in_tail, settle, take_slip
 from .effects import flight_rates, pull
 from .ground import surface

@@ -11,7 +11,7 @@ A particle that starts from rest goes straight down the slope; there q is the ti
 from math import exp, expm1, inf, log, sqrt
 from typing import NamedTuple
 
-from ._compile import kernel
+from .jit import kernel
 from .vector import add, along, cross, dot, length, scale, unit
 
 

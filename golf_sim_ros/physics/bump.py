@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Balls that hit balls."""
 from . import others, together
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .contact import material_number, settle
 from .crowd import CONTACTS, MEMBERS, Crowd
 from .detect import GENTLE

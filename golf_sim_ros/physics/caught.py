@@ -7,7 +7,7 @@ time, and at each step's end whatever it touches takes away what drives it in, w
 """
 from math import sqrt
 
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .contact import settle
 from .crowd import CONTACTS
 from .detect import NEAR, TOUCH

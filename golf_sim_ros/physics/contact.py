@@ -7,7 +7,7 @@ slides as v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
 """
 from math import inf
 
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from . import braked
 from .effects import pull
 from .ground import surface

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import others
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .detect import box
 from .others import Solo
 from .state import PILED, moves

@@ -16,7 +16,7 @@ is crowded: only those on the way are asked.
 """
 from math import sqrt
 
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .ground import surface
 from .ground.flat import FLUSH
 from .path import (bends, corner, greatest_acceleration, greatest_speed, height, heights,

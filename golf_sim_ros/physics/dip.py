@@ -4,7 +4,7 @@
 To be in water is to be below its level and inside its outline. It is safe to advance as long as either must
 still fail.
 """
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .detect import MOST_STEPS, TANGENTIAL, TOUCH, safe_advance
 from .ground.polygon import beside
 from .path import greatest_acceleration, least_acceleration, position, span_along, velocity

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Landing and bouncing: what an impact with the ground does, and what comes after it."""
 from . import together
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .bump import WORTH_TELLING, collide, scatter
 from .caught import STALL, hold, is_caught
 from .contact import heading, material_number, settle, stand_on

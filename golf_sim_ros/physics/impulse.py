@@ -6,7 +6,7 @@ restitution, at most dynamic friction times the normal impulse. Fixed ground has
 """
 from typing import NamedTuple
 
-from ._compile import kernel
+from .jit import kernel
 from .vector import along, cross, dot, length, put, scale, vector
 
 

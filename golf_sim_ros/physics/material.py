@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._compile import kernel
+from .jit import kernel
 
 STANDARD_GRAVITY = 9.80665  # m/s^2, CGPM 1901
 FOOT = 0.3048  # m, exact

@@ -4,10 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import effects as effects_
 from . import ground as ground_
 from .course import Ball
-from .effects import Scene, laws
+from .effects import laws
 from .ground.cup import cup_in, opening
 from .ground.solid import Flagstick
 from .ground.surface import Ground
@@ -104,8 +103,3 @@ def bare_ground(course):
     """`Ground` of a course without obstacles, hole and flagstick: what its heights are asked of."""
     number = {material: i for i, material in enumerate(materials(course))}
     return ground_.build(course.ground, course.zones, course.bounds, None, number)
-
-
-def choose(names, course, balls, wind):
-    """Effects of a scene; see `effects.choose`."""
-    return effects_.choose(names, Scene(course, balls, tuple(map(float, wind))))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The equations of motion: of a ball that flies, and of one that follows ground which is not flat."""
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .effects import flight_rates, pull, sinking
 from .ground import surface
 from .impulse import slip

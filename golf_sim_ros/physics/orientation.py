@@ -2,7 +2,7 @@
 """How far a ball has turned, for those who draw it."""
 from math import cos, sin, sqrt
 
-from ._compile import entry
+from .jit import entry
 from .state import moves
 
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)

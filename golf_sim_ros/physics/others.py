@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._compile import generic
+from .jit import generic
 
 
 class Solo(NamedTuple):

@@ -3,7 +3,7 @@
 from math import sqrt
 
 from . import others, path
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .crowd import Crowd, next_node
 from .detect import MOST_STEPS, PILE_NEAR, SHORT, TANGENTIAL, TOUCH, box, is_long, safe_advance
 from .state import HOLED, MEETING, PILED, REST, STEP, moves

@@ -14,7 +14,7 @@ gives bounds for nothing, and short pieces keep full precision.
 """
 from math import sqrt
 
-from ._compile import kernel
+from .jit import kernel
 from .vector import add, along, dot, put, sub, vector
 
 

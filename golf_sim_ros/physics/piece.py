@@ -3,7 +3,7 @@
 from math import inf
 
 from . import path
-from ._compile import borrowed, entry, kernel, shared
+from .jit import borrowed, entry, kernel, shared
 from .bent import bent_piece
 from .caught import caught_step, is_caught
 from .contact import flat_piece, heading, material_number, settle, stand_on, take_slip

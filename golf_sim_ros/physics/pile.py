@@ -12,7 +12,7 @@ that has just joined has its own.
 from math import floor
 
 from . import others
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .caught import MANY_STALLS, is_caught
 from .contact import settle
 from .crowd import ASLEEP, CONTACTS, MEMBERS, Crowd, next_node

@@ -6,14 +6,12 @@ from typing import NamedTuple
 import numpy as np
 
 from . import model
-from .advance import play_all
+from .batch import Batch, batch_engine, played, progress_bar
+from .engine import checked_engine
 from .ground import surface
-from .report import Result, objection, summary, suspects
+from .report import Result, objection, suspects
 from .vector import ZERO
 from .world import World, checked_wind
-
-
-PART = 5000  # shots between two looks at the progress
 
 
 class Play(NamedTuple):
@@ -27,7 +25,7 @@ class Play(NamedTuple):
     spins: np.ndarray
 
 
-def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=100.0):
+def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=100.0, engine='auto'):
     """Play one shot from the tee to its end.
 
     Parameters
@@ -41,6 +39,8 @@ def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=
     accuracy : str or Preset
     rate : float
         Rows of the path a second. The shot itself does not depend on it.
+    engine : str
+        See `World`.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=
         See `World`.
     """
     gusts = checked_gusts(wind)
-    world = World(course, effects=effects, accuracy=accuracy, wind=gusts[0, 1:])
+    world = World(course, effects=effects, accuracy=accuracy, wind=gusts[0, 1:], engine=engine)
     name = world.names[0]
     world.strike(name, shot.velocity, shot.spin)
     rows, events, tick = [(0.0, *world[name][:3])], [], 0
@@ -93,7 +93,7 @@ def checked_gusts(wind):
 
 
 def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy='standard',
-                  executor=None, chunks=16, progress=None):
+                  executor=None, chunks=16, progress=None, engine='auto'):
     """Play many shots, each from the tee.
 
     Parameters
@@ -108,6 +108,9 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     progress : callable, optional
         ``progress(parts, total=n)`` gives the parts back one by one and shows how far they are, as
         `tqdm.tqdm` does. Else there is such a bar on a terminal, where tqdm is installed and it takes long.
+    engine : str
+        'python', 'compiled', or 'auto': compiled where there are so many shots that it is worth it; the log
+        says so before this process waits for a compiler.
 
     Returns
     -------
@@ -121,21 +124,15 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     """
     strikes = checked_strikes(velocities, spins)
     gusts = checked_gusts(wind)
-    progress = progress or bar
+    progress = progress or progress_bar
+    batch = Batch(course, gusts, effects, accuracy, checked_engine(engine))
+    if engine == 'auto':
+        batch = batch._replace(engine=batch_engine(batch, len(strikes)))
     if executor is None:
-        return _played(course, strikes, gusts, effects, accuracy, progress)
+        return played(batch, strikes, progress)
     parts = [part for part in np.array_split(strikes, chunks) if len(part)]
-    played = executor.map(_played, repeat(course), parts, repeat(gusts), repeat(effects), repeat(accuracy))
-    return np.concatenate(list(progress(played, total=len(parts))))
-
-
-def bar(parts, total):
-    """`parts` with a bar on a terminal, from two seconds on, if tqdm is installed."""
-    try:
-        from tqdm import tqdm
-    except ImportError:
-        return parts
-    return tqdm(parts, total=total, desc='shots', unit='part', delay=2.0, disable=None)
+    done = executor.map(played, repeat(batch), parts)
+    return np.concatenate(list(progress(done, total=len(parts))))
 
 
 def checked_strikes(velocities, spins):
@@ -148,18 +145,6 @@ def checked_strikes(velocities, spins):
         if reason:
             raise ValueError(f'shot {i}: {reason}')
     return np.ascontiguousarray(np.hstack([velocities, spins]))
-
-
-def _played(course, strikes, gusts, effects, accuracy, progress=None):
-    # The strongest gust decides whether there is wind at all.
-    strongest = gusts[np.argmax(np.linalg.norm(gusts[:, 1:], axis=1)), 1:]
-    world = World(course, effects=effects, accuracy=accuracy, wind=strongest)
-    # What is off stays off until the last shot ends, so nothing dormant is compiled in.
-    awake = world._model._replace(effects=model.in_flight(world._chosen.on.values()))
-    parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    ends = [play_all(awake, world._balls, part, gusts, world._crowd, world._log)
-            for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
-    return summary(np.concatenate(ends), course.hole, world._materials)
 
 
 def check_hole(course):

@@ -6,7 +6,7 @@ convex shrinks by no more than its rate says: where no contact closes faster tha
 overlaps at the next instant. Projected Gauss-Seidel finds the impulses, beginning with those of the step
 before. Velocities here are those half-way through a step (leapfrog), and impulses are per mass.
 """
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .contact import material_of, stand_on
 from .crowd import CONTACTS, MEMBERS, NEIGHBOURS, next_node
 from .detect import PILE_NEAR

@@ -11,12 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from . import model as model_
-from ._compile import borrowed, entry, kernel
+from .jit import borrowed, entry, kernel
 from .accuracy import Preset
 from .effects import Scene, flight_rates, laws
 from .effects.gravity import Gravity
 from .effects.linear_drag import LinearDrag
 from .effects.ferguson_lift import record as lift
+from .engine import best
 from .ground import surface
 from .integrators.euler import SemiImplicitEuler
 from .material import restitution
@@ -74,7 +75,7 @@ def play_report_2019(course, velocities, spins, wind=ZERO):
     world = World(course)
     # Sand is what gives nothing back.
     absorbs = np.array([m.restitution.e0 == 0.0 for m in model_.materials(course)])
-    ends = _play(model_.build(course, records, REPORT_2019), world._balls, strikes, absorbs)
+    ends = best(_play)(model_.build(course, records, REPORT_2019), world._balls, strikes, absorbs)
     return ends['landed_at'], ends['position']
 
 

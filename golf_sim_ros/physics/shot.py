@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is kept of a shot on its way, for its result."""
 from . import path
-from ._compile import entry, kernel
+from .jit import entry, kernel
 from .state import FLIGHT, GONE, LAUNCH, REST, moves, next_event
 from .vector import ZERO, put, vector
 

@@ -2,7 +2,7 @@
 """A ball that meets water: it skips or goes in, sinks, and its shot is over."""
 from math import asin, pi, sqrt
 
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .shot import note_landing
 from .state import FLIGHT, NO_PART, WATER, WET, moves, next_event
 from .vector import ZERO, dot, length, put, scale, sub, vector

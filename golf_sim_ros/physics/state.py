@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._compile import kernel
+from .jit import kernel
 
 
 class Phase(IntEnum):

@@ -10,7 +10,7 @@ that neither the order in memory nor left and right count.
 from math import sqrt
 
 from . import others
-from ._compile import kernel, shared
+from .jit import kernel, shared
 from .crowd import CONTACTS, MEMBERS, Crowd, next_node
 from .contact import material_of
 from .ground import surface

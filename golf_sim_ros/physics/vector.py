@@ -2,7 +2,7 @@
 """Algebra of vectors as tuples of three floats: numba keeps them in registers."""
 from math import sqrt
 
-from ._compile import kernel
+from .jit import kernel
 
 ZERO = (0.0, 0.0, 0.0)
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A course with balls on it, in time."""
+from functools import partial
 import re
 from math import cos, inf, isfinite, pi, sin
 from typing import NamedTuple
@@ -7,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 
 from . import model as model_
-from ._compile import stamp
 from .accuracy import preset
-from .advance import LOG_FULL, STAGES, advance
+from .advance import LOG_FULL, STAGES
 from .crowd import AGE, scratch
 from .detect import PILE_NEAR
+from .engine import PYTHON, Program, checked_engine, compiled
+from .effects import Scene, choose
 from .ground import surface
-from .orientation import turn
-from .piece import LONGEST_SHOT, put_down
+from .piece import LONGEST_SHOT
 from .report import KINDS, Collision, objection, result, three
 from .shot import tee_off
 from .state import (BALL, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
@@ -57,14 +58,19 @@ class World:
         'sketch', 'standard' or 'reference'.
     wind : (float, float, float)
         Velocity of the air 10 m above the ground [m/s].
+    engine : str
+        'python', 'compiled', or 'auto': plain Python, until it has taken so long that compiling is worth it.
 
     Raises
     ------
     ValueError
-        An unknown effect or accuracy, a bad name, no ground under the tee.
+        An unknown effect, accuracy or engine, a bad name, no ground under the tee.
+    jit.Unavailable
+        There is no compiled engine here.
     """
 
-    def __init__(self, course, balls=('ball',), effects='auto', accuracy='standard', wind=ZERO):
+    def __init__(self, course, balls=('ball',), effects='auto', accuracy='standard', wind=ZERO,
+                 engine='auto'):
         self.course = course
         self.names = checked_names(balls)
         self._numbers = {name: number for number, name in enumerate(self.names)}
@@ -75,14 +81,25 @@ class World:
         self._log, self._events, self._now, self._shots = new_log(64 + 16 * len(self.names)), [], 0.0, 0
         self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
+        self._engine = compiled() if checked_engine(engine) == 'compiled' else PYTHON
+        self._program = None  # of the compiled engine, if that may take over
         self._rebuild()
         self._crowd = scratch(len(self.names), 'ball_ball' in self.effects_on)
+        if engine == 'auto':
+            self._program = Program.of(self.program)
         self._tee_up()
 
     def _rebuild(self):
         """Choose the effects anew and build the model for kernels."""
-        self._chosen = model_.choose(self._asked, self.course, len(self.names), self._wind)
-        self._model = model_.build(self.course, self._chosen.records, self._preset)
+        self._choose()
+        self._model = model_.build(self.course, self._records, self._preset)
+
+    def _choose(self):
+        """Choose the effects, and the records that the engine gets of them."""
+        self._scene = Scene(self.course, len(self.names), self._wind)
+        self._chosen = choose(self._asked, self._scene)
+        keeps_dormant = self._engine.keeps_dormant
+        self._records = self._chosen.with_dormant(self._scene) if keeps_dormant else self._chosen.records
 
     def _tee_up(self):
         """Put all balls side by side on the tee."""
@@ -114,7 +131,7 @@ class World:
     @accuracy.setter
     def accuracy(self, accuracy):
         self._preset, self._accuracy = preset(accuracy), accuracy
-        self._model = model_.build(self.course, self._chosen.records, self._preset)
+        self._model = model_.build(self.course, self._records, self._preset)
         self._begin_new_pieces()
 
     def measure(self):
@@ -138,26 +155,42 @@ class World:
         return [name for name, phase in zip(self.names, phases) if FLIGHT <= phase <= ROLL]
 
     @property
-    def compiled(self):
-        """Whether all that a play can need has been compiled on this machine."""
-        mark = stamp(self._types())
-        return mark is None or mark.exists()
+    def engine(self):
+        """What runs the physics now: 'python' or 'compiled'; may be set, also while balls move.
 
-    def compile(self):
-        """Compile all that a play can need. Takes a while, once a machine."""
-        trial = World(self.course, self.names, self._asked, self._preset)
-        trial.strike(self.names[0], (1.0, 0.0, 1.0))
-        trial.advance(LONGEST_SHOT)
-        trial.turn(np.zeros((len(self.names), 4)), 0.0)
-        mark = stamp(self._types())
-        if mark:
-            mark.parent.mkdir(parents=True, exist_ok=True)
-            mark.touch()
+        Setting 'compiled' loads what is needed, or compiles it in this process: up to a minute; see `build`.
+        """
+        return self._engine.name
 
-    def _types(self):
-        """What decides which machine code is needed: the types of the model's records."""
-        records = (*self._model.effects, self._preset.method, *self._model.land.ground.kinds, self._crowd)
-        return ' '.join(f'{type(r).__module__}.{type(r).__qualname__}' for r in records)
+    @engine.setter
+    def engine(self, name):
+        self._engine, self._program = {'python': PYTHON}.get(name) or compiled(), None
+        self._rebuild()
+
+    @property
+    def program(self):
+        """What decides which machine code the compiled engine needs: the types of the records."""
+        return self._types(self._chosen.with_dormant(self._scene))
+
+    @property
+    def types(self):
+        """Names of the types of the records that run now, which decide what machine code they need."""
+        return self._types(self._records)
+
+    def _types(self, records):
+        types = map(type, (*records, self._preset.method, *self._model.land.ground.kinds, self._crowd))
+        return ' '.join(f'{kind.__module__}.{kind.__qualname__}' for kind in types)
+
+    def build(self, urgent=False):
+        """The compiled engine on its way, begun now if nobody has: a `jit.build.Build`; see there."""
+        return Program.of(self.program).built(urgent, exercise, self.course, self.names, self._asked, self._preset)
+
+    def _take_over(self):
+        """Go on with the compiled engine, if that is ready; let it be built, if it is worth it."""
+        if self._program.is_ready:
+            self.engine = 'compiled'
+        elif self._program.build is None and self._program.is_worth_compiling():
+            self.build()
 
     def __getitem__(self, name):
         """Return the `BallState` of the ball called `name`."""
@@ -167,7 +200,7 @@ class World:
 
     def turn(self, orientations, time):
         """Turn `orientations`, (n, 4), the balls' quaternions x, y, z, w, as balls turn in `time` [s]."""
-        turn(orientations, self._balls, time)
+        self._engine.turn(orientations, self._balls, time)
 
     def _ball(self, name):
         return self._balls[self._number(name)]
@@ -223,7 +256,7 @@ class World:
         depth = 0.0
         if len(position) == 2:
             position, depth = self._above(*position)
-        touches, inside, wet = put_down(self._model, ball, position, depth)
+        touches, inside, wet = self._engine.put_down(self._model, ball, position, depth)
         if depth and not touches:
             raise ValueError(f'no ground at x {position[0]:g}, y {position[1]:g}')
         if inside > surface.SAME_HEIGHT:
@@ -267,6 +300,8 @@ class World:
     def _settle_clock(self):
         """Start the clock of paths anew when nothing moves: same strikes give the same bits."""
         if not self.moving:
+            if self._program:
+                self._take_over()
             self._now = 0.0
             self._crowd.count[AGE] = len(self.names)  # where balls are near each other is found out anew
 
@@ -282,8 +317,8 @@ class World:
         if wind == self._wind:
             return
         self._wind = wind
-        self._chosen = model_.choose(self._asked, self.course, len(self.names), wind)
-        self._model = self._model._replace(effects=model_.in_flight(self._chosen.records))
+        self._choose()
+        self._model = self._model._replace(effects=model_.in_flight(self._records))
         self._begin_new_pieces()
 
     def _begin_new_pieces(self):
@@ -313,7 +348,8 @@ class World:
             return
         start = self.time - self._now
         while True:
-            status = advance(self._model, self._balls, until, self._crowd, self._log)
+            run = partial(self._program.timed, self._engine.advance) if self._program else self._engine.advance
+            status = run(self._model, self._balls, until, self._crowd, self._log)
             self._events += self._told(start)
             if status != LOG_FULL:
                 break
@@ -356,11 +392,11 @@ class World:
         ball['playing'] = ball['knocked'] = ball['water'] = ball['leans'] = ball['piled'] = 0
         for x, y, z, lower in spots(three(ball['struck_at']), self._model.land.ball.radius):
             if self._is_free(number, (x, y, z)):
-                touches, inside, wet = put_down(self._model, ball, (x, y, z + lower), 2.0 * lower)
+                touches, inside, wet = self._engine.put_down(self._model, ball, (x, y, z + lower), 2.0 * lower)
                 if lower == 0.0 or touches and inside <= surface.SAME_HEIGHT and not wet:
                     break
         else:
-            put_down(self._model, ball, three(ball['struck_at']), 0.0)
+            self._engine.put_down(self._model, ball, three(ball['struck_at']), 0.0)
         moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL)) & (self._balls['piled'] == 0)
         self._balls['end'][moving], self._balls['ending'][moving] = now, STEP
 
@@ -379,11 +415,13 @@ class World:
         `written` makes what stands for a ball out of its `BALL` record.
         """
         balls = {name: written(ball) for name, ball in zip(self.names, self._balls)}
-        return {'time': self.time, 'clock': self._now, 'accuracy': self.accuracy, 'wind': list(self._wind),
-                'balls': balls}
+        return {'time': self.time, 'clock': self._now, 'engine': self.engine, 'accuracy': self.accuracy,
+                'wind': list(self._wind), 'balls': balls}
 
     def restore(self, state):
-        """Go on as a world on the same course, with the same effects, did from its `state`, to the bit.
+        """Go on as a world on the same course, with the same effects, did from its `state`.
+
+        To the bit, if the engine is the same; it stays as it is.
 
         Raises
         ------
@@ -454,3 +492,11 @@ def checked_wind(wind):
     if sum(x * x for x in wind) > MOST_WIND * MOST_WIND:
         raise ValueError(f'wind {wind} is over {MOST_WIND:g} m/s')
     return wind
+
+
+def exercise(course, names, effects, accuracy):
+    """Run all that a play of the compiled engine can need: it is compiled then, or loaded from the cache."""
+    world = World(course, names, effects, accuracy, engine='compiled')
+    world.strike(names[0], (1.0, 0.0, 1.0))
+    world.advance(0.0)
+    world.turn(np.zeros((len(names), 4)), 0.0)

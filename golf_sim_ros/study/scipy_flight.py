@@ -4,7 +4,6 @@ from math import log, sqrt
 
 from scipy.integrate import solve_ivp
 
-from ..physics._compile import plain
 from ..physics.effects import Scene, choose
 from ..physics.effects.drag import drag_coefficient
 from ..physics.effects.magnus import lift_per_ratio
@@ -42,7 +41,7 @@ def rates(records, wind, radius):
     drag, magnus, decay = records['drag'], records['magnus'], records['spin_decay']
     g = records['gravity'].g
     profile = records.get('wind')
-    cd, cl = plain(drag_coefficient), plain(lift_per_ratio)
+    cd, cl = drag_coefficient, lift_per_ratio
 
     def right_hand_side(time, state):
         _, _, z, vx, vy, vz, wx, wy, wz = state

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from driving_range import TURF, launched, level
 from golf_sim_ros.physics import Air, LogProfile, PowerProfile, UniformProfile, simulate_many
-from golf_sim_ros.physics._compile import plain
+from golf_sim_ros.physics.jit import plain
 from golf_sim_ros.physics.effects.drag import DragLaw, drag_coefficient
 from golf_sim_ros.physics.effects.magnus import LiftLaw, lift_per_ratio
 from golf_sim_ros.physics.effects.wind import blowing, share

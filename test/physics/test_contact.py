@@ -7,7 +7,7 @@ from pathlib import Path
 from driving_range import EVERYTHING, GRAVITY, HARD, TURF, down, level, random_shots, slope
 from golf_sim_ros.physics import (ACCURACY, Collision, Material, Phase, Preset, Restitution, Result, Shot,
                                   World, braked, rolling_resistance_of_stimp, simulate, simulate_many)
-from golf_sim_ros.physics._compile import entry
+from golf_sim_ros.physics.jit import entry
 from golf_sim_ros.physics.model import Limits
 import numpy as np
 import oracles

@@ -5,7 +5,7 @@ from math import isfinite
 
 from driving_range import HARD, TURF, level
 from golf_sim_ros.physics import ACCURACY, EFFECTS, Air, Shot, World, register_effect, simulate
-from golf_sim_ros.physics._compile import entry
+from golf_sim_ros.physics.jit import entry
 from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, laws, pull
 from golf_sim_ros.physics.model import build, ground
 import numpy as np

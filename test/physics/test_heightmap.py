@@ -8,7 +8,7 @@ from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics import (ACCURACY, METHODS, Course, Heightmap, Material, Phase, Plane, Preset,
                                   Restitution, World, simulate_many)
-from golf_sim_ros.physics._compile import entry
+from golf_sim_ros.physics.jit import entry
 from golf_sim_ros.physics.ground import heightmap, laws
 from golf_sim_ros.physics.ground.bicubic import nodes
 import numpy as np

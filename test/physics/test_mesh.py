@@ -5,7 +5,7 @@ import os
 
 from driving_range import GRAVITY, HARD
 from golf_sim_ros.physics import Course, Material, Mesh, Patch, Phase, Plane, World, ground_height, model
-from golf_sim_ros.physics._compile import entry
+from golf_sim_ros.physics.jit import entry
 from golf_sim_ros.physics.ground import laws
 from golf_sim_ros.physics.ground.mesh import meshes
 from golf_sim_ros.physics.ground.surface import look_down

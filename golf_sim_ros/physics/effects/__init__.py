@@ -3,10 +3,11 @@
 
 A file of this folder that defines ``record(scene)`` and ``idle(scene)`` is an effect, named after
 the file. ``record`` gives the effect's record for a scene; ``idle`` says why the scene can do
-without it, or '' if it can't. An idle effect is not compiled in, unless the file defines
-``dormant(scene)`` too: a record of the same type that does nothing, so that nothing compiles when
-the effect awakes. A file with ``INSTEAD_OF``, names of effects, is another law for the same: a scene
-gets it only by name. Other packages add theirs with :func:`register_effect`.
+without it, or '' if it can't. An idle effect does not run and is not compiled in. Where the file
+defines ``dormant(scene)`` too, a record of the same type that does nothing, a compiled `World` keeps
+that instead: so one program serves every course, and nothing compiles when the effect awakes. A file
+with ``INSTEAD_OF``, names of effects, is another law for the same: a scene gets it only by name.
+Other packages add theirs with :func:`register_effect`.
 """
 from difflib import get_close_matches
 import importlib
@@ -14,7 +15,7 @@ import inspect
 import pkgutil
 from typing import Callable, NamedTuple, Optional
 
-from .._compile import kernel, literal_unroll
+from ..jit import kernel, literal_unroll
 from ..vector import ZERO, add, length, sub
 from . import laws
 
@@ -41,15 +42,28 @@ class Effect(NamedTuple):
 
 
 class Chosen(NamedTuple):
-    """Records by name of the effects that a scene gets; reasons of those left out; records to compile.
+    """Records by name of the effects that a scene gets; reasons of those left out.
 
     ``needless``: reasons of those that were asked for by name and that the scene can't have.
     """
 
     on: dict
     off: dict
-    records: tuple
     needless: dict
+
+    @property
+    def records(self):
+        """Records of the effects that the scene gets: what has to run."""
+        return tuple(self.on.values())
+
+    def with_dormant(self, scene):
+        """`records`, and in its place a dormant one of each effect that has one and is off.
+
+        The types are then the same for every scene, but for laws asked for by name.
+        """
+        found = ((name, self.on.get(name) or effect.dormant and effect.dormant(scene))
+                 for name, effect in EFFECTS.items() if name in self.on or not effect.instead_of)
+        return tuple(record for _, record in found if record)
 
 
 EFFECTS = {}
@@ -83,20 +97,17 @@ def choose(names, scene):
     names = (names,) if isinstance(names, str) else tuple(names)
     auto = names == ('auto',)
     check(() if auto else names)
-    on, off, records = {}, {}, []
+    on, off = {}, {}
     for name, effect in EFFECTS.items():
         asked = not effect.instead_of if auto else name in names
         if effect.instead_of and not asked:
             continue
         reason = effect.idle(scene) if auto else '' if asked else 'not asked for'
-        if not reason:
+        if reason:
+            off[name] = reason
+        else:
             on[name] = effect.record(scene)
-            records.append(on[name])
-            continue
-        off[name] = reason
-        if asked and effect.dormant:
-            records.append(effect.dormant(scene))
-    return Chosen(on, off, tuple(records), {} if auto else needless(names, scene))
+    return Chosen(on, off, {} if auto else needless(names, scene))
 
 
 def check(names):

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from ..jit import kernel
 from ..vector import ZERO
 from . import laws
 from .drag import dynamic_push

@@ -4,7 +4,7 @@ from math import pi
 from typing import NamedTuple
 
 from .. import air
-from .._compile import kernel
+from ..jit import kernel
 from ..vector import ZERO, dot, scale
 from . import laws
 
@@ -66,7 +66,7 @@ def drag_coefficient(law, ss, rr, flow=1.0):
 @laws.acceleration.register(Drag)
 def _acceleration(effect, flow):
     vv = dot(flow.velocity, flow.velocity)
-    if vv < NO_FLOW:
+    if vv < NO_FLOW or effect.push == 0.0:
         return ZERO
     turning = effect.radius * effect.radius * dot(flow.spin, flow.spin)
     coefficient = drag_coefficient(effect.law, turning, effect.reynolds * effect.reynolds * vv, vv)
@@ -76,7 +76,7 @@ def _acceleration(effect, flow):
 @laws.longest_step.register(Drag)
 def turning_about(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook how drag of the square of the speed turns about."""
-    return laws.passing(flow.velocity, force, CREEPING, wanted)
+    return laws.passing(flow.velocity, force, CREEPING, wanted) if effect.push > 0.0 else wanted
 
 
 def dynamic_push(course):
@@ -93,9 +93,14 @@ def reynolds_number(course):
 def record(scene):
     """Record for `scene`."""
     course = scene.course
-    return Drag(dynamic_push(course), course.ball.radius, reynolds_number(course), DragLaw())
+    return Drag(float(dynamic_push(course)), float(course.ball.radius), float(reynolds_number(course)), DragLaw())
 
 
 def idle(scene):
     """Why `scene` can do without: in no air."""
     return '' if scene.course.air.pressure > 0 else 'no air'
+
+
+def dormant(scene):
+    """Record that does nothing: a course without air compiles nothing."""
+    return record(scene)._replace(push=0.0)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from ..jit import kernel
 from ..ground.solid import Sphere, box
 from ..vector import ZERO, length, scale
 from . import laws
@@ -73,3 +73,8 @@ def record(scene):
 def idle(scene):
     """Why `scene` can do without: where nothing has leaves."""
     return '' if leafy(scene.course) else 'no leaves'
+
+
+def dormant(scene):
+    """Record of no leaves: a course with some compiles nothing."""
+    return Foliage(np.zeros(0, LEAF))

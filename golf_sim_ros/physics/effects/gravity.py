@@ -25,3 +25,8 @@ def record(scene):
 def idle(scene):
     """Why `scene` can do without: never."""
     return ''
+
+
+def dormant(scene):
+    """Record of no gravity: a play without it compiles nothing."""
+    return Gravity(0.0)

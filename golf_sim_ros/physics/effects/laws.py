@@ -7,7 +7,7 @@ its fields are free to change while running.
 from math import sqrt
 from typing import NamedTuple
 
-from .._compile import generic, kernel, shared
+from ..jit import generic, kernel, shared
 from ..vector import ZERO, dot
 
 BRIEF = 2e-3  # s: a step that the error control can be left to, however suddenly a law turns about

@@ -3,7 +3,7 @@
 from math import sqrt
 from typing import NamedTuple
 
-from .._compile import kernel
+from ..jit import kernel
 from ..vector import ZERO, cross, dot, scale
 from . import laws
 from .drag import NO_FLOW, dynamic_push, reynolds_number
@@ -56,7 +56,7 @@ def lift_per_ratio(law, ss, rr, flow=1.0):
 @laws.acceleration.register(Magnus)
 def _acceleration(effect, flow):
     vv = dot(flow.velocity, flow.velocity)
-    if vv < NO_FLOW:
+    if vv < NO_FLOW or effect.push == 0.0:
         return ZERO
     # push v^2 CL across / |across|, where S is |across| / v^2: no division by a vanishing spin.
     across = cross(scale(effect.radius, flow.spin), flow.velocity)
@@ -66,6 +66,8 @@ def _acceleration(effect, flow):
 
 @laws.longest_step.register(Magnus)
 def _longest_step(effect, ground, flow, force, wanted):
+    if effect.push == 0.0:
+        return wanted
     # Lift turns about where the velocity sweeps past the axis of spin.
     blunt = BEND * effect.law.early_at * flow.speed * flow.speed / effect.radius
     return laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
@@ -80,3 +82,8 @@ def record(scene):
 def idle(scene):
     """Why `scene` can do without: in no air."""
     return '' if scene.course.air.pressure > 0 else 'no air'
+
+
+def dormant(scene):
+    """Record that does nothing: a course without air compiles nothing."""
+    return record(scene)._replace(push=0.0)

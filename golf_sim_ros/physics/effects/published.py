@@ -2,7 +2,7 @@
 """What the published laws of drag and lift share: coefficients become an acceleration."""
 from math import sqrt
 
-from .._compile import kernel
+from ..jit import kernel
 from ..vector import add, cross, length, scale
 from . import laws
 from .drag import CREEPING

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from .. import air
-from ..vector import scale
+from ..vector import ZERO, scale
 from . import laws
 
 # Smits and Smith, Science and Golf II (1994) 340-347: dw/dt = -2.0e-5 V w / r, in air of 1.18.
@@ -19,7 +19,7 @@ class SpinDecay(NamedTuple):
 
 @laws.spin_rate.register(SpinDecay)
 def _spin_rate(effect, flow):
-    return scale(-effect.rate * flow.speed, flow.spin)
+    return scale(-effect.rate * flow.speed, flow.spin) if effect.rate > 0.0 else ZERO
 
 
 def record(scene):
@@ -31,3 +31,8 @@ def record(scene):
 def idle(scene):
     """Why `scene` can do without: in no air."""
     return '' if scene.course.air.pressure > 0 else 'no air'
+
+
+def dormant(scene):
+    """Record that does nothing: a course without air compiles nothing."""
+    return SpinDecay(0.0)

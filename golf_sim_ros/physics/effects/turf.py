@@ -11,7 +11,7 @@
 from math import acos, cos, exp, pi, sin
 from typing import NamedTuple
 
-from .._compile import kernel
+from ..jit import kernel
 from ..vector import add, dot, length, scale, tangential
 from . import laws
 
@@ -41,7 +41,7 @@ class Turf(NamedTuple):
 @laws.contact_normal.register(Turf)
 def _contact_normal(effect, normal, velocity, softness):
     across = tangential(velocity, normal)
-    if softness == 0.0 or length(across) == 0.0:
+    if softness * effect.rate == 0.0 or length(across) == 0.0:
         return normal
     approach = max(-dot(velocity, normal), 0.0)
     dug_in = approach * approach / (approach * approach + effect.fade * effect.fade)
@@ -78,3 +78,8 @@ def idle(scene):
     """Why `scene` can do without: where all ground is hard."""
     soft = any(shape.material.softness > 0 for shape in scene.course.ground)
     return '' if soft else 'all ground is hard'
+
+
+def dormant(scene):
+    """Record that tilts nothing: a course of hard ground compiles nothing."""
+    return Turf(rate=0.0)

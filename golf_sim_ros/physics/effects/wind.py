@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from ..jit import kernel
 from ..ground.surface import ground_height
 from ..vector import ZERO, put, scale, vector
 from . import laws

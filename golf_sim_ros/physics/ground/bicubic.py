@@ -9,7 +9,7 @@ from math import floor
 
 import numpy as np
 
-from .._compile import kernel, shared
+from ..jit import kernel, shared
 
 AT_ONCE = 64  # rows of cells that are bounded at once: on a map of 1000 x 1000 that takes some 50 MB
 

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from ..jit import kernel
 from ..vector import ZERO, add, along, dot, length, scale, sub, tangential, unit, vector
 from . import laws
 from .patch import Patch

@@ -4,7 +4,7 @@
 Newton's method on half the squared distance; what lies on the rectangle's border, and would be nearer beyond,
 stays there. Coordinates are metres from the grid's origin.
 """
-from .._compile import kernel, shared
+from ..jit import kernel, shared
 from .bicubic import bicubic
 
 MOST_STEPS = 60

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel, shared
+from ..jit import kernel, shared
 from ..material import Material
 from ..vector import ZERO, dot, length, scale, sub, tangential, unit
 from . import laws

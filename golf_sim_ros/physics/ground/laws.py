@@ -5,7 +5,7 @@ A kind is made of parts, numbered from 0. They are convex, or their hollows have
 that is what lets contacts be found without ever stepping over one. A new kind registers a body for
 each of these laws that it has a word in.
 """
-from .._compile import generic
+from ..jit import generic
 from ..vector import ZERO, along, length, scale, sub
 
 NOTHING = (-1e300, -1)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from ..jit import kernel
 from ..material import Material
 from ..vector import ZERO, along, cross, dot, length, scale, sub, tangential, unit, vector
 from . import laws

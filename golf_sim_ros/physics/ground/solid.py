@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from ..jit import kernel
 from ..material import Material, Restitution
 from ..vector import along, dot, length, scale, sub, tangential, unit, vector
 from . import laws

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import borrowed, entry, kernel, literal_unroll, shared
+from ..jit import borrowed, entry, kernel, literal_unroll, shared
 from ..state import NO_PART
 from ..vector import ZERO, along, dot, scale
 from . import laws

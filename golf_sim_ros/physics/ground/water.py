@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .._compile import kernel
+from ..jit import kernel
 from .polygon import Polygons, beside, polygons
 
 

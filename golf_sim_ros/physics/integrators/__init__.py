@@ -8,7 +8,7 @@ import importlib
 import pkgutil
 from typing import Callable, NamedTuple
 
-from .._compile import shared
+from ..jit import shared
 from . import runge_kutta
 
 

@@ -4,7 +4,7 @@ from math import inf, sqrt
 
 import numpy as np
 
-from .._compile import generic, kernel
+from ..jit import generic, kernel
 from ..effects import longest_step, pull, wind_at
 from ..motion import STILL, rates
 from ..path import lay

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From kernels to machine code, with numba: what each function is compiled to, once somebody asks."""
+import os
+import sys
+
+from . import ENTRY, GENERICS, ROLES, SHARED, Unavailable, borrowed, cycles, literal_unroll, parameters
+from . import cache as cache_
+
+if os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0'):
+    raise Unavailable('NUMBA_DISABLE_JIT is set')
+try:
+    import numba
+    from numba.core.registry import cpu_target
+    from numba.core.types import Dispatcher
+    from numba.core.typing.templates import infer_global
+    from numba.extending import overload
+except ImportError as error:  # also a numba that does not work with this numpy
+    raise Unavailable(' '.join(str(error).split())) from None
+
+from . import linking, reference
+
+# That 0 and -0 are one changes results in no more than that, and spares an addition for each silent effect.
+OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
+DISPATCHERS = {}  # by function
+KNOWN = set()  # generics that numba knows
+CACHE = cache_.folder()
+
+if CACHE.path and not os.environ.get('NUMBA_CACHE_DIR'):
+    numba.config.CACHE_DIR = str(CACHE.path)
+
+
+def dispatcher(function):
+    """What compiles the entry `function` for the types it is called with, or finds it in the cache."""
+    declare()
+    return DISPATCHERS[function]
+
+
+def declare():
+    """Tell numba of all kernels and generics that there are by now; effects may have come since."""
+    for function, role in list(ROLES.items()):
+        if function not in DISPATCHERS:
+            DISPATCHERS[function] = made = new_dispatcher(function, role)
+            unroll(function)
+            infer_global(function, Dispatcher(made))
+    for generic in GENERICS:
+        for function in (generic.default, *generic.cases.values()):
+            unroll(function)
+        if generic not in KNOWN:
+            KNOWN.add(generic)
+            declare_generic(generic)
+
+
+def new_dispatcher(function, role):
+    """What numba makes of `function`, nothing compiled yet."""
+    if role == ENTRY:
+        return numba.njit(cache=CACHE.path is not None, **OPTIONS)(function)
+    made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(function)
+    return linking.inner(made)
+
+
+def unroll(function):
+    """Let a function's module name numba's own `literal_unroll`, for which numba looks."""
+    names = function.__globals__
+    if names.get('literal_unroll') is literal_unroll:
+        names['literal_unroll'] = numba.literal_unroll
+
+
+def declare_generic(generic):
+    """Let numba pick the body of a generic by the type of its first argument."""
+    def pick(record, *_):
+        return generic.cases.get(getattr(record, 'instance_class', None), generic.default)
+
+    names = parameters(generic.default)
+    scope = {'pick': pick, '__name__': generic.__module__}
+    exec(f'def choose({names}): return pick({names})', scope)
+    options = {'no_cpython_wrapper': True, **linking.options(False)}
+    overload(generic, jit_options=options)(scope['choose'])
+
+
+def stand_for(function, intrinsic):
+    """Let compiled kernels use an `intrinsic` where they name a plain `function`."""
+    infer_global(function, cpu_target.typing_context.resolve_value_type(intrinsic))
+
+
+cpu_target.typing_context.refresh()
+stand_for(borrowed, reference.borrowed)
+stand_for(cycles, reference.cycles)
+
+
+def versions():
+    """What compiled code depends on beside the sources: numba and Python, as one line."""
+    return f'numba {numba.__version__}, Python {sys.version_info.major}.{sys.version_info.minor}'

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Compiling in a child process: it keeps the compiler's memory, and its crashes, to itself.
+
+As a program, ``python -m golf_sim_ros.physics.jit.build`` reads a pickled `Job` and runs it, so that what it
+needs is compiled and in the cache afterwards. Lines of its output tell how far it is.
+"""
+import hashlib
+from importlib import import_module, metadata
+import importlib.util
+import os
+import pickle
+import platform
+import signal
+import subprocess
+import sys
+import tempfile
+from threading import Event, Thread
+from typing import Callable, NamedTuple
+
+from . import GENERICS, Unavailable, cache
+
+COMPILING, LOADING, READY, FAILED = 'compiling', 'loading', 'ready', 'failed'
+ORDINARY = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
+PROGRAM = 'golf_sim_ros.physics.jit.build'
+LOWEST = 19  # niceness of a child for which nobody waits
+INSTALL = "pip install numba, in a virtual environment made with 'python3 -m venv --system-site-packages'"
+
+
+def missing():
+    """Why there can be no compiled engine here, one line, or ''; numba is looked for and not imported."""
+    if importlib.util.find_spec('numba') is None:
+        return f'numba is not installed: {INSTALL}'
+    if os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0'):
+        return 'NUMBA_DISABLE_JIT is set'
+    return ''
+
+
+class Job(NamedTuple):
+    """What a child of some `niceness` does: import `modules`, which may register effects, call ``function(*args)``.
+
+    Afterwards the program called `key` is compiled and kept.
+    """
+
+    niceness: int
+    key: str
+    modules: tuple
+    function: Callable
+    args: tuple
+
+
+class Build:
+    """Compiled code on its way: a child compiles all that ``function(*args)`` needs, then this process loads it.
+
+    It begins at once, in a thread; the child has the lowest priority, unless it is `urgent`. `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the
+    share of the compilation that is done, `reason` one line that says why it failed.
+    """
+
+    def __init__(self, urgent, key, function, *args):
+        self.state, self.progress, self.reason = COMPILING, 0.0, ''
+        self.ended, self.child = Event(), None
+        self.job = Job(0 if urgent else LOWEST, key, foreign_modules(), function, args)
+        Thread(target=self._run, name='build of the physics', daemon=True).start()
+
+    def wait(self, seconds=None):
+        """Whether it has ended, after `seconds` at most."""
+        return self.ended.wait(seconds)
+
+    def stop(self):
+        """End the child, if there is one."""
+        if self.child and self.child.poll() is None:
+            self.child.kill()
+
+    def _run(self):
+        try:
+            self._compile_and_load()
+            self.state = READY
+        except Unavailable as error:
+            self.state, self.reason = FAILED, str(error)
+        self.ended.set()
+
+    def _compile_and_load(self):
+        reason = missing() or ('' if cache.folder().path else cache.folder().reason)
+        if reason:
+            raise Unavailable(reason)
+        trouble = self._compile({})
+        if trouble and self._compile(ORDINARY):  # the private parts may be what this numba does not like
+            raise Unavailable(trouble)
+        self.state = LOADING
+        self.job.function(*self.job.args)
+
+    def _compile(self, environment):
+        """Why a child could not compile, or ''."""
+        if '__main__' in self.job.modules:
+            raise Unavailable('effects of the main program cannot be handed to a child process; '
+                              'put them into a module')
+        try:
+            job = pickle.dumps(self.job)
+        except (pickle.PicklingError, AttributeError, TypeError) as error:
+            raise Unavailable(f'the scene cannot be handed to a child process: {error}') from None
+        with tempfile.TemporaryFile() as errors:
+            self.child = subprocess.Popen(
+                [sys.executable, '-m', PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors,
+                env={**os.environ, **environment, 'PYTHONPATH': os.pathsep.join(filter(None, sys.path))})
+            with self.child:
+                self._hand_over(job)
+                for line in self.child.stdout:
+                    self.progress = float(line)
+            errors.seek(0)
+            return trouble(self.child.returncode, errors.read().decode(errors='replace'))
+
+    def _hand_over(self, job):
+        """Give the child its job; the pipe stays open, for the child ends with it."""
+        try:
+            self.child.stdin.write(len(job).to_bytes(8, 'big') + job)
+            self.child.stdin.flush()
+        except BrokenPipeError:
+            pass  # it has ended, and its exit code says why
+
+
+def foreign_modules():
+    """Names of the modules of other packages that add to the physics: effects that users have registered."""
+    names = {function.__module__ for generic in GENERICS for function in generic.cases.values()}
+    return tuple(sorted(name for name in names if name.partition('.')[0] != __name__.partition('.')[0]))
+
+
+def is_kept(key):
+    """Whether the program called `key` has been compiled on this machine, and is in the cache."""
+    return not missing() and cache.folder().path is not None and mark(key).exists()
+
+
+def mark(key):
+    """Path of the file that says that the program called `key` is in the cache."""
+    made_with = [f'{package} {metadata.version(package)}' for package in ('numba', 'llvmlite', 'numpy')]
+    name = hashlib.sha256(' '.join([key, platform.python_version(), *made_with]).encode()).hexdigest()[:16]
+    return cache.folder().path / f'{name}.compiled'
+
+
+def trouble(code, errors):
+    """What went wrong, in one line: from a child's exit code and the last of what it wrote."""
+    if code == 0:
+        return ''
+    lines = [line.strip() for line in errors.splitlines() if line.strip()]
+    ended = f'exit code {code}' if code > 0 else f'killed by {signal.Signals(-code).name}'
+    return f'numba {metadata.version("numba")} could not compile the physics ({ended}): {lines[-1][:200] if lines else "no word why"}'
+
+
+def main():
+    """Run the job that comes in, as long as who sent it lives."""
+    size = int.from_bytes(sys.stdin.buffer.read(8), 'big')
+    job = pickle.loads(sys.stdin.buffer.read(size))
+    os.nice(job.niceness)
+    Thread(target=end_with_parent, daemon=True).start()
+    for module in job.modules:
+        import_module(module)
+    from .progress import telling_progress
+    with telling_progress(sys.stdout):
+        job.function(*job.args)
+    mark(job.key).touch()
+    return 0
+
+
+def end_with_parent():
+    """End this process as soon as nobody holds the other end of its input."""
+    sys.stdin.buffer.read()
+    os._exit(1)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Inner kernels are linked as drafts and optimised once, where they end up: private parts of numba.
+
+numba would optimise at every level of calls, with all that is called below. The parts used here are known
+to do what they do in the versions of `KNOWN`; with others kernels are compiled the ordinary way.
+"""
+import os
+
+import numba
+from numba.core import types
+from numba.core.compiler import Compiler
+from numba.core.registry import CPUDispatcher
+
+KNOWN = (0, 59), (0, 69)  # versions from the first to before the second, each tried
+VERSION = tuple(int(part) for part in numba.__version__.split('.')[:2])
+ORDINARY = 'GOLF_SIM_ROS_ORDINARY_LINKING'  # set: numba's own way, whatever the version
+
+
+def is_known():
+    """Whether the private parts of this numba are known."""
+    return KNOWN[0] <= VERSION < KNOWN[1] and not os.environ.get(ORDINARY)
+
+
+def options(apart):
+    """Options with which numba compiles an inner kernel; `apart`: it is called, not copied."""
+    if not is_known():
+        return {}  # forceinline would take ten times as long: all is optimised at every level
+    # forceinline has to be denied: numba hands a caller's down to what it calls.
+    return {'pipeline_class': _DraftingApart if apart else _Drafting, 'forceinline': not apart}
+
+
+def inner(dispatcher):
+    """The `dispatcher` of a kernel that only kernels call."""
+    if is_known():
+        dispatcher.__class__ = _Inner
+    return dispatcher
+
+
+class _Inner(CPUDispatcher):
+    """A kernel that is compiled no more often than its arguments' types differ."""
+
+    def get_call_template(self, args, kws):
+        """What to call for arguments of these types: a constant needs no code of its own."""
+        return super().get_call_template([types.unliteral(a) for a in args],
+                                         {name: types.unliteral(a) for name, a in kws.items()})
+
+
+if is_known():
+    from numba import _dynfunc
+    from numba.core.codegen import JITCodeLibrary
+
+    class _Draft(JITCodeLibrary):
+        """Code that is only linked into other code: optimised and made machine code there, once."""
+
+        def finalize(self):
+            self._raise_if_finalized()
+            for library in dict.fromkeys(self._linking_libraries):
+                if hasattr(self, '_reload_init'):  # from numba 0.63 on
+                    self._reload_init.update(library._reload_init)
+                self._final_module.link_in(library._get_module_for_linking(), preserve=True)
+            self._finalized = True
+
+    class _Apart(_Draft):
+        """Code that stays apart where it is linked into: LLVM would copy it to wherever it is called."""
+
+        def add_ir_module(self, ir_module):
+            for function in ir_module.functions:
+                if not function.is_declaration:
+                    function.attributes.add('noinline')
+            super().add_ir_module(ir_module)
+
+    class _Drafting(Compiler):
+        """Compiles to a `_Draft`."""
+
+        library = _Draft
+
+        def compile_extra(self, func):
+            context = self.state.targetctx
+            context.get_executable = _nothing_to_execute
+            self.state.library = self.library(context.codegen(), func.__qualname__)
+            return super().compile_extra(func)
+
+    class _DraftingApart(_Drafting):
+        """Compiles to code that stays `_Apart`."""
+
+        library = _Apart
+
+    def _nothing_to_execute(library, fndesc, env):
+        library._ensure_finalized()
+        name = fndesc.qualname.split('.')[-1]
+        return _dynfunc.make_function(fndesc.lookup_module(), name, '', 0, env, (library,))

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What kernels do that Python cannot say: records by reference, the processor's cycles."""
+import platform
+
+from llvmlite import ir
+from numba.core import cgutils, types
+from numba.core.datamodel import models
+from numba.core.imputils import lower_getattr_generic
+from numba.core.typing.templates import AttributeTemplate, infer_getattr
+from numba.extending import intrinsic, register_model
+
+
+class _Reference(types.Type):
+    """Pointer to a named tuple that outlives it; its fields are read like the tuple's."""
+
+    def __init__(self, record):
+        self.record = record
+        super().__init__(f'Reference({record})')
+
+    @property
+    def instance_class(self):
+        return self.record.instance_class
+
+
+@register_model(_Reference)
+class _ReferenceModel(models.PrimitiveModel):
+    """A pointer to the tuple's value."""
+
+    def __init__(self, manager, reference):
+        value = manager.lookup(reference.record).get_value_type()
+        super().__init__(manager, reference, value.as_pointer())
+
+
+def _read(field):
+    """Type of a field of type `field`, read through a reference."""
+    if isinstance(field, types.BaseNamedTuple):
+        return _Reference(field)
+    if isinstance(field, types.BaseTuple):
+        return types.Tuple([_read(item) for item in field.types])
+    return field
+
+
+@infer_getattr
+class _ReferenceFields(AttributeTemplate):
+    """Types of the fields."""
+
+    key = _Reference
+
+    def generic_resolve(self, reference, name):
+        if name in reference.record.fields:
+            return _read(reference.record.types[reference.record.fields.index(name)])
+        return None
+
+
+@lower_getattr_generic(_Reference)
+def _get_field(context, builder, reference, pointer, name):
+    index = reference.record.fields.index(name)
+    place = cgutils.gep_inbounds(builder, pointer, 0, index)
+    return _load(context, builder, reference.record.types[index], place)
+
+
+def _load(context, builder, field, pointer):
+    if isinstance(field, types.BaseNamedTuple):
+        return pointer
+    if isinstance(field, types.BaseTuple):
+        items = [_load(context, builder, item, cgutils.gep_inbounds(builder, pointer, 0, i))
+                 for i, item in enumerate(field.types)]
+        return context.make_tuple(builder, _read(field), items)
+    value = builder.load(pointer)
+    return _view(context, builder, field, value) if isinstance(field, types.Array) else value
+
+
+def _view(context, builder, array, value):
+    """The array without its owner, so that nobody counts references to it."""
+    view = context.make_array(array)(context, builder, value)
+    view.meminfo = view.meminfo.type(None)
+    view.parent = view.parent.type(None)
+    return view._getvalue()
+
+
+@intrinsic
+def borrowed(typing, record):
+    def build(context, builder, signature, args):
+        if isinstance(record, types.Array):
+            return _view(context, builder, record, args[0])
+        return cgutils.alloca_once_value(builder, args[0])
+    return (record if isinstance(record, types.Array) else _Reference(record))(record), build
+
+
+@intrinsic
+def cycles(typing):
+    def build(context, builder, signature, args):
+        if platform.machine() not in ('x86_64', 'AMD64'):  # elsewhere a program may not ask
+            return context.get_constant(types.int64, 0)
+        counter = ir.FunctionType(ir.IntType(64), ())
+        name = 'llvm.readcyclecounter'
+        return builder.call(cgutils.get_or_insert_function(builder.module, counter, name), ())
+    return types.int64(), build
