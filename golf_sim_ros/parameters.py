@@ -4,6 +4,8 @@ from typing import NamedTuple
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 
+from .command_line import Program
+from .parameter_values import fit, warn_of_unknown
 from .physics import ACCURACY
 
 
@@ -19,8 +21,10 @@ class Parameters(NamedTuple):
     balls: tuple = ('ball',)
     frame_id: str = 'course'
     publish_clock: bool = False
+    engine: str = 'auto'
 
 
+ENGINES = ('auto', 'python', 'compiled')
 MEANING = {
     'course': 'name of a shipped course, or path of a course file',
     'rate': 'physics ticks a second of simulated time',
@@ -32,17 +36,28 @@ MEANING = {
     'balls': 'names of the balls; the first one is in play',
     'frame_id': 'frame of every stamp, and the frame in which inputs are understood',
     'publish_clock': 'whether to publish simulated time on /clock, and to stamp with it',
+    'engine': 'what runs the physics: python, plain Python; compiled, the compiled engine; auto, Python '
+              'until it takes too much of a core',
 }
 RANGE = {'rate': (10.0, 10000.0), 'publish_rate': (1.0, 1000.0), 'real_time_factor': (0.0, 100.0)}
 LIVE = ('accuracy', 'real_time_factor')
 SLOWEST = 0.1  # real-time factor
 OWN_TIME = 'this node makes simulated time; to follow it itself, it must publish_clock'
+FOLLOWED = 'whether to follow /clock; only with publish_clock: this node makes simulated time'
+PROGRAM = Program(
+    'sim_node', 'Simulates golf: a Twist on `shot` strikes the ball, and `ball/pose` tells where it is.',
+    {**{name: (default, MEANING[name]) for name, default in Parameters()._asdict().items()},
+     'use_sim_time': (False, FOLLOWED)}, 'course:=links')
 
 
 def declared(node):
     """`Parameters` of `node` after all were declared; ValueError where they do not fit together."""
-    values = {name: declare(node, name, default) for name, default in Parameters()._asdict().items()}
-    values = Parameters(**values)
+    defaults = Parameters()._asdict()
+    fit(node, defaults)
+    values = Parameters(**{name: declare(node, name, default) for name, default in defaults.items()})
+    warn_of_unknown(node)
+    if values.engine not in ENGINES:
+        raise ValueError(f'engine {values.engine!r} is unknown; known: {", ".join(ENGINES)}')
     if values.publish_rate > values.rate:
         raise ValueError(f'publish_rate {values.publish_rate:g} must be at most rate, {values.rate:g}')
     if node.get_parameter('use_sim_time').value and not values.publish_clock:

@@ -15,7 +15,7 @@ from .broadcast import Broadcast
 from .course import load_course
 from .game import Game
 from .messages import triple
-from .parameters import checked, declared
+from .parameters import checked, declared, PROGRAM
 from .physics import World
 from .physics.world import checked_wind
 from .refusals import Refusals
@@ -182,7 +182,7 @@ class SimNode(Node):
 
 def main(args=None):
     """Play until told to stop; returns the exit code."""
-    return run(SimNode, args)
+    return run(SimNode, PROGRAM, args)
 
 
 if __name__ == '__main__':

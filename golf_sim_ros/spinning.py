@@ -6,9 +6,11 @@ import sys
 import rclpy
 from rclpy.exceptions import ParameterException
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
 
+from .command_line import answered, explained
 from .environment import complete_environment
 
 try:
@@ -51,17 +53,20 @@ class Ending:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
 
 
-def run(make_node, args=None):
+def run(make_node, program, args=None):
     """Exit code of a process that runs the node made by `make_node` until it is told to stop.
 
     SIGINT and SIGTERM end it with 0 at any time, also while it compiles. Where `make_node` raises
-    what a user can put right (`REFUSED`), the log has one line and the code is 1.
+    what a user can put right (`REFUSED`), the log has one line and the code is 1. Where the arguments
+    leave nothing to run, as `--help` does, the `Program` has its answer.
     """
     ending = Ending()
     complete_environment()
     try:
-        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-        node = checked(make_node)
+        code = answered(program, args)
+        if code is not None:
+            return code
+        node = checked(make_node, args)
         if node is None:
             return 0 if ending.told else 1
         ending.be_patient()
@@ -75,8 +80,13 @@ def run(make_node, args=None):
     return 0
 
 
-def checked(make_node):
+def checked(make_node, args):
     """The node, or None after a line in the log that says what was wrong."""
+    try:
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+    except rclpy_implementation.RCLError as error:  # of what the arguments name: an enclave, a pipe
+        get_logger('golf_sim_ros').fatal(explained(error))
+        return None
     try:
         return make_node()
     except REFUSED as error:

@@ -8,6 +8,8 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
+from .command_line import Program
+from .parameter_values import fit, warn_of_unknown
 from .spinning import run
 from .wind.gusts import Gusts, GustSettings
 
@@ -15,16 +17,29 @@ from .wind.gusts import Gusts, GustSettings
 WIND_QOS = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
-# For each of the gust settings: least value, greatest value, description.
-GUST_PARAMETERS = {
-    'speed': (0.0, 60.0, 'mean speed of the gusts, 10 m above the ground [m/s]'),
-    'speed_spread': (0.0, 40.0, 'speeds are uniform in speed +- this, never below 0 [m/s]'),
-    'direction': (-6.2832, 6.2832, 'mean direction in which the air goes, from x towards y [rad]'),
-    'direction_spread': (0.0, 6.2832, 'directions are uniform in direction +- this [rad]'),
-    'interval': (0.1, 86400.0, 'time from one gust to the next [s of ROS time]'),
-    'ramp': (0.0, 3600.0, 'time over which a gust is eased in, at most interval [s]'),
-    'turbulence': (0.0, 1.0, 'standard deviation of the turbulence over the speed of the gust; 0: none'),
+DEFAULTS = {**GustSettings()._asdict(), 'seed': -1, 'publish_rate': 10.0, 'frame_id': 'course'}
+MEANING = {
+    'speed': 'mean speed of the gusts, 10 m above the ground [m/s]',
+    'speed_spread': 'speeds are uniform in speed +- this, never below 0 [m/s]',
+    'direction': 'mean direction in which the air goes, from x towards y [rad]',
+    'direction_spread': 'directions are uniform in direction +- this [rad]',
+    'interval': 'time from one gust to the next [s of ROS time]',
+    'ramp': 'time over which a gust is eased in, at most interval [s]',
+    'turbulence': 'standard deviation of the turbulence over the speed of the gust; 0: none',
+    'seed': 'the same seed gives the same gusts; -1: fresh each start, and logged',
+    'publish_rate': 'messages a second of ROS time',
+    'frame_id': 'frame in which the wind is given',
 }
+RANGES = {
+    'speed': (0.0, 60.0), 'speed_spread': (0.0, 40.0), 'direction': (-6.2832, 6.2832),
+    'direction_spread': (0.0, 6.2832), 'interval': (0.1, 86400.0), 'ramp': (0.0, 3600.0),
+    'turbulence': (0.0, 1.0), 'seed': (-1, 2**63 - 1), 'publish_rate': (0.1, 1000.0),
+}
+READ_ONLY = ('seed', 'publish_rate')
+PROGRAM = Program(
+    'wind_node', 'Generates wind and publishes it on `wind`: a new gust every `interval`, eased in.',
+    {**{name: (default, MEANING[name]) for name, default in DEFAULTS.items()},
+     'use_sim_time': (False, 'whether to follow /clock')}, 'speed:=8')
 
 
 class WindNode(Node):
@@ -41,35 +56,24 @@ class WindNode(Node):
     def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
         super().__init__('wind_generator', context=context, namespace=namespace,
                          parameter_overrides=parameter_overrides)
-        self._declare_gust_parameters()
-        publish_rate = self._declare_publish_rate()
-        self._declare_frame_id()
-        self._gusts = Gusts(self._settings(), self._seed(self._declare_seed()))
+        fit(self, DEFAULTS)
+        given = {name: self._declare(name) for name in DEFAULTS}
+        warn_of_unknown(self)
+        self._gusts = Gusts(self._settings(), self._seed(given['seed']))
         self._started_at = self.get_clock().now()
         self._publisher = self.create_publisher(Vector3Stamped, 'wind', WIND_QOS)
         self.add_post_set_parameters_callback(self._take_over)
-        self._timer = self.create_timer(1.0 / publish_rate, self._publish)
+        self._timer = self.create_timer(1.0 / given['publish_rate'], self._publish)
 
-    def _declare_gust_parameters(self):
-        defaults = GustSettings()
-        for name, (least, greatest, description) in GUST_PARAMETERS.items():
-            self.declare_parameter(name, getattr(defaults, name), ParameterDescriptor(
-                description=description,
-                floating_point_range=[FloatingPointRange(from_value=least, to_value=greatest)]))
-
-    def _declare_publish_rate(self):
-        return self.declare_parameter('publish_rate', 10.0, ParameterDescriptor(
-            description='messages a second of ROS time', read_only=True,
-            floating_point_range=[FloatingPointRange(from_value=0.1, to_value=1000.0)])).value
-
-    def _declare_frame_id(self):
-        self.declare_parameter('frame_id', 'course', ParameterDescriptor(
-            description='frame in which the wind is given'))
-
-    def _declare_seed(self):
-        return self.declare_parameter('seed', -1, ParameterDescriptor(
-            description='the same seed gives the same gusts; -1: fresh each start, and logged',
-            read_only=True, integer_range=[IntegerRange(from_value=-1, to_value=2**63 - 1)])).value
+    def _declare(self, name):
+        """Return the value of the parameter `name`, declared with its range and description."""
+        default, (least, greatest) = DEFAULTS[name], RANGES.get(name, (None, None))
+        descriptor = ParameterDescriptor(description=MEANING[name], read_only=name in READ_ONLY)
+        if isinstance(default, float):
+            descriptor.floating_point_range = [FloatingPointRange(from_value=least, to_value=greatest)]
+        elif isinstance(default, int):
+            descriptor.integer_range = [IntegerRange(from_value=least, to_value=greatest)]
+        return self.declare_parameter(name, default, descriptor).value
 
     def _seed(self, wanted):
         """Return the seed that is `wanted`, or a fresh one for -1; log it."""
@@ -78,7 +82,7 @@ class WindNode(Node):
         return seed
 
     def _settings(self):
-        return GustSettings(**{name: self.get_parameter(name).value for name in GUST_PARAMETERS})
+        return GustSettings(**{name: self.get_parameter(name).value for name in GustSettings._fields})
 
     def _time(self, now):
         """
@@ -91,7 +95,7 @@ class WindNode(Node):
         return (now.nanoseconds - since) / 1e9
 
     def _take_over(self, parameters):
-        if any(parameter.name in GUST_PARAMETERS for parameter in parameters):
+        if any(parameter.name in GustSettings._fields for parameter in parameters):
             self._gusts.change(self._settings(), self._time(self.get_clock().now()))
 
     def _publish(self):
@@ -106,7 +110,7 @@ class WindNode(Node):
 
 def main(args=None):
     """Run the wind generator until it is told to stop."""
-    return run(WindNode, args)
+    return run(WindNode, PROGRAM, args)
 
 
 if __name__ == '__main__':

@@ -1,42 +1,129 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator, the wind and, if wanted, RViz: ``ros2 launch golf_sim_ros golf.launch.py rviz:=true``."""
+"""The simulator, the wind and, if wanted, RViz: ``ros2 launch golf_sim_ros golf.launch.py rviz:=true``.
 
+An argument that is left out says nothing to the nodes, so it never overrides a params file.
+"""
+
+from pathlib import Path
+from typing import List
+
+from ament_index_python.packages import get_package_prefix, get_package_share_directory, PackageNotFoundError
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, Shutdown
-from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
+from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
+from launch.substitutions import TextSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
-from launch_ros.substitutions import FindPackageShare
+import yaml
 
-SHARE = FindPackageShare('golf_sim_ros')
-ARGUMENTS = [
-    DeclareLaunchArgument('course', default_value='golf_without_friends',
-                          description='name of a shipped course, or path of a course file'),
-    DeclareLaunchArgument('accuracy', default_value='standard', choices=['sketch', 'standard', 'reference'],
-                          description='how exactly to simulate'),
-    DeclareLaunchArgument('namespace', default_value='',
-                          description='namespace of all nodes, so that many games share one network'),
-    DeclareLaunchArgument('wind', default_value='true', choices=['true', 'false'],
-                          description='whether to start the wind generator'),
-    DeclareLaunchArgument('wind_params', description='parameters of the wind generator, a YAML file',
-                          default_value=PathJoinSubstitution([SHARE, 'config', 'wind.yaml'])),
-    DeclareLaunchArgument('rviz', default_value='false', choices=['true', 'false'],
-                          description='whether to start RViz'),
-]
+# Arguments that are parameters of the simulator; their defaults are in config/sim.yaml.
+TEXTS = {
+    'course': 'name of a shipped course, or path of a course file',
+    'accuracy': 'sketch, standard or reference: how exactly to simulate',
+    'engine': 'auto, python or compiled: what runs the physics',
+}
+LISTS = {
+    'balls': 'names of the balls, as in a or [a, b]',
+    'effects': 'effects to simulate, as in auto or [gravity, drag]',
+}
+NUMBERS = {
+    'rate': 'physics ticks a second of simulated time',
+    'publish_rate': 'pose and twist messages a second while a ball moves',
+    'real_time_factor': 'simulated seconds a wall second; 0: as fast as it can',
+}
+OTHERS = {
+    'publish_clock': ('', 'true: simulated time on /clock, which wind and RViz then follow'),
+    'params_file': ('', 'parameters of simulator and wind, a YAML file; the other arguments override it'),
+    'wind_params_file': ('', 'parameters of the wind generator, a YAML file; it overrides params_file'),
+    'wind_params': ('', 'the former name of wind_params_file'),
+    'namespace': ('', 'namespace of all nodes, so that many games share one network'),
+    'log_level': ('', 'debug, info, warn, error or fatal, or of one logger, as in golf_sim:=debug'),
+    'wind': ('true', 'true or false: whether to start the wind generator'),
+    'rviz': ('false', 'true or false: whether to start RViz'),
+}
+UNLESS_GIVEN = '; if left out, what the params file says, else the default of the simulator'
 
 
 def generate_launch_description():
     """All nodes of one game."""
-    namespace = LaunchConfiguration('namespace')
-    strings = {name: ParameterValue(LaunchConfiguration(name), value_type=str)
-               for name in ('course', 'accuracy')}
-    sim = Node(package='golf_sim_ros', executable='sim_node', namespace=namespace, output='screen',
-               parameters=[strings], on_exit=Shutdown(reason='the simulator has ended'))
-    wind = Node(package='golf_sim_ros', executable='wind_node', namespace=namespace, output='screen',
-                parameters=[LaunchConfiguration('wind_params')],
-                condition=IfCondition(LaunchConfiguration('wind')))
-    rviz = Node(package='rviz2', executable='rviz2', namespace=namespace,
-                arguments=['-d', PathJoinSubstitution([SHARE, 'rviz', 'golf.rviz'])],
-                condition=IfCondition(LaunchConfiguration('rviz')))
-    return LaunchDescription([*ARGUMENTS, sim, wind, rviz])
+    parameters = {**TEXTS, **LISTS, **NUMBERS}
+    return LaunchDescription([
+        *(DeclareLaunchArgument(name, default_value='', description=meaning + UNLESS_GIVEN)
+          for name, meaning in parameters.items()),
+        *(DeclareLaunchArgument(name, default_value=default, description=meaning)
+          for name, (default, meaning) in OTHERS.items()),
+        OpaqueFunction(function=nodes)])
+
+
+def nodes(context):
+    """The nodes that are asked for; raises before any is started where one can't be."""
+    names = (*TEXTS, *LISTS, *NUMBERS, *OTHERS)
+    given = {name: context.launch_configurations[name].strip() for name in names}
+    common = {'namespace': given['namespace'],
+              'ros_arguments': ['--log-level', given['log_level']] if given['log_level'] else None}
+    started = [simulator(given, common)]
+    if is_true(context, given, 'wind'):
+        started.append(wind(context, given, common))
+    if is_true(context, given, 'rviz'):
+        started.append(rviz(context, given, common))
+    return started
+
+
+def simulator(given, common):
+    """The node `golf_sim`; when it ends, all do."""
+    parameters = {}
+    for name in (*TEXTS, *LISTS, *NUMBERS, 'publish_clock'):
+        if given[name]:
+            kind = str if name in TEXTS else List[str] if name in LISTS else None  # None: as YAML reads it
+            value = listed(given[name]) if name in LISTS else TextSubstitution(text=given[name])
+            parameters[name] = ParameterValue(value, value_type=kind)
+    return Node(package='golf_sim_ros', executable='sim_node', name='golf_sim', output='screen',
+                parameters=[*params_files(given, 'params_file'), parameters],
+                on_exit=Shutdown(reason='the simulator has ended'), **common)
+
+
+def wind(context, given, common):
+    """The node `wind_generator`."""
+    files = params_files(given, 'params_file', 'wind_params', 'wind_params_file')
+    return Node(package='golf_sim_ros', executable='wind_node', name='wind_generator', output='screen',
+                parameters=[*files, follow_clock(context, given)], **common)
+
+
+def rviz(context, given, common):
+    """RViz, with what there is to see; RuntimeError where it is not installed."""
+    try:
+        get_package_prefix('rviz2')
+    except PackageNotFoundError:
+        raise RuntimeError(f'rviz:={given["rviz"]} needs the package rviz2: nothing is started') from None
+    view = Path(get_package_share_directory('golf_sim_ros'), 'rviz', 'golf.rviz')
+    return Node(package='rviz2', executable='rviz2', arguments=['-d', str(view)],
+                parameters=[follow_clock(context, given)], **common)
+
+
+def follow_clock(context, given):
+    """Parameters of a node that follows simulated time where it is published."""
+    return {'use_sim_time': True} if is_true(context, given, 'publish_clock') else {}
+
+
+def is_true(context, given, name):
+    """Whether an argument is true, as launch has it; RuntimeError where it is neither that nor false."""
+    expression = [TextSubstitution(text=given[name])]
+    try:
+        return given[name] != '' and evaluate_condition_expression(context, expression)
+    except InvalidConditionExpressionError:
+        raise RuntimeError(f'{name}:={given[name]} must be true or false: nothing is started') from None
+
+
+def listed(text):
+    """Names in a list as YAML has it, or with commas or spaces between."""
+    names = yaml.load(text, Loader=yaml.BaseLoader)  # no name becomes a number, or a bool as y and n would
+    return names if isinstance(names, list) else text.replace(',', ' ').split()
+
+
+def params_files(given, *names):
+    """Paths of the params files that are given; RuntimeError where there is none."""
+    paths = {name: Path(given[name]).expanduser() for name in names if given[name]}
+    for name, path in paths.items():
+        if not path.is_file():
+            raise RuntimeError(f'{name}:={path} is no file: nothing is started')
+    return [str(path) for path in paths.values()]

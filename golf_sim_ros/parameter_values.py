@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Values of parameters as people type them, in the type of the default; and names that are mistyped.
+
+`rate:=250` is an integer to ROS, `balls:=a` a string and `frame_id:=1` no string. They are converted
+before they are declared, so that types and ranges stay what `ros2 param describe` says.
+"""
+from difflib import get_close_matches
+import re
+import sys
+
+from rclpy.exceptions import ParameterNotDeclaredException
+from rclpy.parameter import Parameter
+
+from .command_line import only_for_all_nodes
+
+SWITCH = {'true': True, 'yes': True, 'on': True, '1': True,
+          'false': False, 'no': False, 'off': False, '0': False}
+KIND = {
+    float: 'a number, as in 2.5',
+    int: 'a whole number',
+    bool: 'true or false',
+    str: "text; what YAML reads as something else is quoted, as in '\"on\"'",
+    tuple: "names, as in a or [a, b]; what YAML reads as something else is quoted, as in '[\"on\"]'",
+}
+
+
+def number(value):
+    """`value` as a float; ValueError where it is none."""
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise ValueError
+    return float(value)
+
+
+def whole(value):
+    """`value` as an int; ValueError where it is none, or has a fraction."""
+    if isinstance(value, int) and not isinstance(value, bool):
+        return value
+    if isinstance(value, str):
+        return int(value)
+    if not number(value).is_integer():
+        raise ValueError
+    return int(value)
+
+
+def switch(value):
+    """`value` as a bool; ValueError where it is none."""
+    if str(value).lower() not in SWITCH:
+        raise ValueError
+    return SWITCH[str(value).lower()]
+
+
+def text(value):
+    """`value` as a str; ValueError where YAML may have read it as something else than was typed."""
+    if isinstance(value, bool) or not isinstance(value, (int, str)):
+        raise ValueError
+    return str(value)
+
+
+def names(value):
+    """`value` as a list of str, or None: a list, or one or several with commas or spaces between."""
+    if value is None or value == '':  # ROS has no type for []
+        return None
+    if isinstance(value, str):
+        return [name for name in re.split(r'[,\s]+', value) if name]
+    return [text(name) for name in value] if hasattr(value, '__iter__') else [text(value)]
+
+
+AS = {float: number, int: whole, bool: switch, str: text, tuple: names}
+
+
+def fitted(parameter, default):
+    """`Parameter` of the type of `default` that means the same as `parameter`.
+
+    Raises
+    ------
+    ValueError
+        There is none; the message names the parameter, its value and what it can be.
+    """
+    try:
+        return Parameter(parameter.name, value=AS[type(default)](parameter.value))
+    except ValueError:
+        given = 'without a value' if parameter.value is None else repr(parameter.value)
+        raise ValueError(f'{parameter.name} must be {KIND[type(default)]}; it is {given}') from None
+
+
+def fit(node, defaults):
+    """Let what was given to `node` for the parameters `defaults` fit, now and while it runs.
+
+    To be called before they are declared. Raises ValueError as `fitted` does; while the node runs, what
+    does not fit is left to rclpy, which refuses it.
+    """
+    overrides = node._parameter_overrides  # rclpy tells nobody of them before they are declared
+    for name in defaults.keys() & overrides.keys():
+        overrides[name] = fitted(overrides[name], defaults[name])
+    node.add_pre_set_parameters_callback(lambda changes: [live(node, change, defaults) for change in changes])
+
+
+def live(node, parameter, defaults):
+    """`parameter`, fitted where it can be; an `Unknown` one is refused."""
+    if not node.has_parameter(parameter.name):
+        raise Unknown(parameter.name, known(node))
+    if parameter.value is None or parameter.name not in defaults:
+        return parameter
+    try:
+        return fitted(parameter, defaults[parameter.name])
+    except ValueError:
+        return parameter
+
+
+class Unknown(ParameterNotDeclaredException):
+    """What `ros2 param set` answers to a name that is not known; rclpy's own line is without it."""
+
+    def __init__(self, name, names):
+        Exception.__init__(self, unknown(name, names))
+
+
+def unknown(name, names):
+    """One line about a parameter that is none of `names`."""
+    nearest, = get_close_matches(name, names, n=1, cutoff=0.0)
+    return f'parameter {name!r} is unknown and does nothing; nearest known: {nearest}'
+
+
+def known(node):
+    """Names of the parameters of `node` that a user may set."""
+    return [name for name in node.list_parameters([], 0).names if '.' not in name]
+
+
+def warn_of_unknown(node, words=None):
+    """Warn once of each parameter given to `node` that it has not declared.
+
+    What a params file says to all nodes (`/**`) may well be for another one: of that there is no warning.
+    `words` are the arguments of the process, `sys.argv[1:]` if not given.
+    """
+    shared = only_for_all_nodes(sys.argv[1:] if words is None else words, node.get_name())
+    for name in node._parameter_overrides:
+        if not node.has_parameter(name) and name not in shared:
+            node.get_logger().warning(unknown(name, known(node)))
