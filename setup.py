@@ -23,7 +23,7 @@ EXECUTABLES = {
 WHEELS = ['rclpy', 'rmw-fastrtps-cpp', 'rcl-interfaces', 'std-msgs', 'std-srvs', 'geometry-msgs',
           'visualization-msgs', 'diagnostic-msgs', 'rosgraph-msgs']
 
-# Without numba everything still works, many balls and batches slowly: it is asked for only where it is a wheel.
+# Without numba all works, many balls and batches slowly: it is asked for only where it comes as a wheel.
 NUMBA = 'numba; python_version < "3.15" and (' + ' or '.join(
     f'platform_machine == "{machine}"' for machine in ('x86_64', 'AMD64', 'aarch64', 'arm64')) + ')'
 
