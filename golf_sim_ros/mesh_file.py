@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 
 from .checked import FAR, CourseError
+from .needed import how_to_get
 from .physics.ground.mesh import NARROW, widths
 
 STL_HEAD = 84  # bytes before the triangles: 80 of anything, then their number
 STL_TRIANGLE = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('attribute', '<u2')])
-HINT = "needs trimesh: pip install 'golf_sim_ros[mesh]'"
+HINT = f'needs trimesh: {how_to_get("mesh", "trimesh")}'
 
 
 def read_mesh(path):

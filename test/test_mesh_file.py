@@ -65,7 +65,7 @@ def test_other_formats_are_read_by_trimesh(suffix, tmp_path):
 
 def test_without_trimesh_the_way_to_it_is_told(read, monkeypatch):
     monkeypatch.setitem(sys.modules, 'trimesh', None)
-    with pytest.raises(CourseError, match=r'a\.ply: needs trimesh: pip install'):
+    with pytest.raises(CourseError, match=r"a\.ply: needs trimesh: pip install 'golf_sim_ros\[mesh\]'"):
         read('a.ply', 'ply\n')
 
 

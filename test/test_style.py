@@ -12,7 +12,7 @@ import pytest
 import golf_sim_ros
 
 ROOT = Path(__file__).resolve().parents[1]
-FOLDERS = ('golf_sim_ros', 'test', 'tools', 'launch', 'benchmarks', 'docs')
+FOLDERS = ('golf_sim_ros', 'test', 'tools', 'launch', 'benchmarks', 'docs', 'examples')
 SOURCES = [ROOT / 'setup.py', *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob('*.py')))]
 EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
 PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))

@@ -17,6 +17,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 EXTRAS = {'jazzy': 'ros', 'kilted': 'ros-kilted'}
+# numba, too: the tests and `make bench` hold compiled code against plain Python.
+EVERYWHERE = 'fast,test,plot,study,bag'
 
 
 def main(folder, distro='jazzy'):
@@ -89,10 +91,10 @@ def make(folder, distro):
     venv.create(folder, clear=True, with_pip=True, symlinks=True, system_site_packages=sourced)
     python = os.path.join(os.path.abspath(folder), 'bin', 'python')
     if sourced and has_ros(python):
-        install(python, ['.[test,plot,study,bag]'] + numpy_of_ros(python))
+        install(python, ['.[%s]' % EVERYWHERE] + numpy_of_ros(python))
     else:
         check_platform()
-        install(python, ['.[%s,test,plot,study,bag]' % EXTRAS[distro]])
+        install(python, ['.[%s,%s]' % (EXTRAS[distro], EVERYWHERE)])
     with open(stamp(folder), 'w') as file:
         file.write(wanted(folder, distro))
 

@@ -4,7 +4,10 @@ import argparse
 from pathlib import Path
 import sys
 
-NEEDED = 'accuracy_study needs scipy, matplotlib and tqdm: pip install "golf_sim_ros[study]"'
+from ..needed import how_to_get
+
+LIBRARIES = 'scipy', 'matplotlib', 'tqdm'
+NEEDED = f'accuracy_study needs {", ".join(LIBRARIES)}: {how_to_get("study", *LIBRARIES)}'
 
 
 def main(args=None):

@@ -2,6 +2,8 @@
 """A rosbag2 bag that is written as messages come, with the QoS that their publishers offer."""
 from pathlib import Path
 
+from ..needed import how_to_get
+
 NEVER = 9223372036, 854775807  # s, ns: what ROS 2 means by a duration without end
 
 
@@ -31,7 +33,7 @@ class BagWriter:
             from rosbags.rosbag2.errors import WriterError
             from rosbags.typesys import Stores, get_typestore
         except ImportError:
-            raise CannotRecord('recording needs the library rosbags: pip install rosbags') from None
+            raise CannotRecord(f'recording needs rosbags: {how_to_get("bag", "rosbags")}') from None
         self.path, self.types = Path(path), get_typestore(Stores.ROS2_JAZZY)
         try:
             self.writer = Writer(self.path, version=9, storage_plugin=StoragePlugin[storage.upper()])

@@ -5,9 +5,10 @@ import sys
 
 from ..bag import BagError, read_bag
 from ..course import CourseError, load_course
+from ..needed import how_to_get
 from ..replay import course_of
 
-NEEDED = 'plot_play needs matplotlib: pip install "golf_sim_ros[plot]"'
+NEEDED = f'plot_play needs matplotlib: {how_to_get("plot", "matplotlib")}'
 
 
 class NoPicture(RuntimeError):

@@ -120,7 +120,7 @@ def test_what_can_not_be_drawn_is_one_line_and_exit_code_1(bag, arguments, reaso
 
 @pytest.mark.parametrize('missing, code, said', [
     (ROS, 0, ''), (('matplotlib',), 1, 'golf_sim_ros[plot]'),
-    (('rosbags', 'rosbags.highlevel'), 1, 'pip install rosbags')],
+    (('rosbags', 'rosbags.highlevel'), 1, "pip install 'golf_sim_ros[bag]'")],
     ids=['ros', 'matplotlib', 'rosbags'])
 def test_it_needs_no_ros_and_says_what_else_is_missing(bag, tmp_path, missing, code, said):
     source = (f'import sys; sys.modules.update(dict.fromkeys({missing!r})); '
