@@ -18,6 +18,7 @@ STATE = ('time', 'clock', 'accuracy', 'wind', 'balls')
 LONGEST = 1000.0  # s; every shot is over long before
 RUNS = 5  # of which the fastest counts
 MANY = {'position': 'positions', 'velocity': 'velocities', 'spin': 'spins'}
+CLOSE = 1e-9  # relative, or absolute below 1: as far as the two engines agree, chaos apart
 
 
 class Shot(NamedTuple):
@@ -101,7 +102,14 @@ def world_of(recording, course=None):
     if found.digest != config['course']['digest']:
         raise BagError(f'course {found.path}: is not the one that was played: its digest is '
                        f'{found.digest[:12]}, in the journal {config["course"]["digest"][:12]}')
-    return World(found, parameters['balls'], tuple(parameters['effects']), parameters['accuracy'])
+    return World(found, parameters['balls'], tuple(parameters['effects']), parameters['accuracy'],
+                 engine='python')
+
+
+def engine_of(recording, shot):
+    """Engine that played a shot; versions before 0.2 played all shots of a sim with the same."""
+    before = 'compiled' if recording.config['made_with'].get('compiled', True) else 'python'
+    return shot.strike.get('engine', before)
 
 
 def course_of(config, course):
@@ -167,14 +175,27 @@ def own_result(events, name):
     return next((event for event in events if isinstance(event, Result) and event.ball == name), None)
 
 
-def difference(recording, shot, again):
-    """The first `Difference` between a recorded shot and its `Rerun`, or None where all is the same."""
+def difference(recording, shot, again, exact=True):
+    """The first `Difference` between a recorded shot and its `Rerun`, or None where all is the same.
+
+    To the bit, if `exact`; else as far as the two engines agree.
+    """
     if again.trouble:
         return Difference(again.end, 'input', 'taken', again.trouble)
     tick = tick_of(recording)
     found = [*unsent(recording, shot), *off_path(recording, shot, again),
              *other_impacts(recording, shot, again, tick), *other_end(recording, shot, again)]
+    found = [one for one in found if exact or not are_close(one)]
     return min(found, key=lambda one: one.tick, default=None)
+
+
+def are_close(one):
+    """Whether a `Difference` is one of rounding: as between the engines, or of a result's last digit."""
+    if isinstance(one.recorded, str) or one.recorded is None or one.again is None:
+        return False
+    within = 1.01 * 10.0 ** -DIGITS if one.field.endswith('of the result') else CLOSE
+    told, now = np.array(one.recorded, float), np.array(one.again, float)
+    return told.shape == now.shape and bool((abs(told - now) <= within * np.maximum(1.0, abs(told))).all())
 
 
 def tick_of(recording):

@@ -164,8 +164,10 @@ class World:
 
     @engine.setter
     def engine(self, name):
-        self._engine, self._program = {'python': PYTHON}.get(name) or compiled(), None
-        self._rebuild()
+        self._program = None
+        if name != self.engine:
+            self._engine = {'python': PYTHON}.get(name) or compiled()
+            self._rebuild()
 
     @property
     def program(self):

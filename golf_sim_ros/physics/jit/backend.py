@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """From kernels to machine code, with numba: what each function is compiled to, once somebody asks."""
 import os
-import sys
 
 from . import ENTRY, GENERICS, ROLES, SHARED, Unavailable, borrowed, cycles, literal_unroll, parameters
 from . import cache as cache_
@@ -18,6 +17,7 @@ except ImportError as error:  # also a numba that does not work with this numpy
     raise Unavailable(' '.join(str(error).split())) from None
 
 from . import linking, reference
+from .read_only import read_from_folder
 
 # That 0 and -0 are one changes results in no more than that, and spares an addition for each silent effect.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
@@ -53,7 +53,8 @@ def declare():
 def new_dispatcher(function, role):
     """What numba makes of `function`, nothing compiled yet."""
     if role == ENTRY:
-        return numba.njit(cache=CACHE.path is not None, **OPTIONS)(function)
+        made = numba.njit(cache=CACHE.writable, **OPTIONS)(function)
+        return made if CACHE.writable or not CACHE.path else read_from_folder(made)
     made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(function)
     return linking.inner(made)
 
@@ -85,8 +86,3 @@ def stand_for(function, intrinsic):
 cpu_target.typing_context.refresh()
 stand_for(borrowed, reference.borrowed)
 stand_for(cycles, reference.cycles)
-
-
-def versions():
-    """What compiled code depends on beside the sources: numba and Python, as one line."""
-    return f'numba {numba.__version__}, Python {sys.version_info.major}.{sys.version_info.minor}'

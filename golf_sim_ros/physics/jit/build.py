@@ -79,12 +79,14 @@ class Build:
         self.ended.set()
 
     def _compile_and_load(self):
-        reason = missing() or ('' if cache.folder().path else cache.folder().reason)
+        folder = cache.folder()
+        reason = missing() or ('' if folder.writable or is_kept(self.job.key) else folder.reason)
         if reason:
             raise Unavailable(reason)
-        trouble = self._compile({})
-        if trouble and self._compile(ORDINARY):  # the private parts may be what this numba does not like
-            raise Unavailable(trouble)
+        if not is_kept(self.job.key):
+            trouble = self._compile({})
+            if trouble and self._compile(ORDINARY):  # the private parts may be what this numba does not like
+                raise Unavailable(trouble)
         self.state = LOADING
         self.job.function(*self.job.args)
 
