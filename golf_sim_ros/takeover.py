@@ -26,7 +26,15 @@ class Takeover:
         self.world, self.log = world, log
         self.build, self.is_open = None, wanted == 'auto'
         self.spent = self.passed = 0.0  # s of processor and of wall time while balls moved
-        self.why = f'engine is {wanted}' if wanted != 'auto' else 'plain Python keeps up with ease'
+        self._why = f'asked for: {wanted}'
+
+    @property
+    def why(self):
+        """Why the engine is what it is, one line."""
+        if not self.is_open:
+            return self._why
+        taken = f'plain Python takes {self.share:.0%} of a core while balls move'
+        return taken if self.build is None else f'{taken}; {self.build.state}, {self.build.progress:.0%} done'
 
     @property
     def share(self):
@@ -52,19 +60,15 @@ class Takeover:
         self.is_open = False
         if self.build.state == READY:
             self.world.engine = 'compiled'
-            self.why = f'plain Python took {self.share:.0%} of a core'
-            self.log.info(f'the compiled engine takes over: {self.why}')
+            self._why = f'plain Python took {self.share:.0%} of a core'
+            self.log.info(f'the compiled engine takes over: {self._why}')
         else:
-            self.why = self.build.reason
-            self.log.warning(f'the play stays in plain Python: {self.why}')
+            self._why = self.build.reason
+            self.log.warning(f'the play stays in plain Python: {self._why}')
 
     def values(self):
         """What a person reads about it, a dict."""
-        if self.is_open and self.build is not None and self.build.state not in (READY, FAILED):
-            why = f'{self.build.state}, {self.build.progress:.0%}: plain Python takes {self.share:.0%} of a core'
-        else:
-            why = self.why
-        return {'engine': self.world.engine, 'engine, why': why}
+        return {'engine': self.world.engine, 'engine, why': self.why}
 
 
 def load_compiled(world, log):

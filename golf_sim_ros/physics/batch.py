@@ -47,8 +47,8 @@ def batch_engine(batch, shots):
 
 def world_of(batch):
     """`World` of a batch. The strongest gust decides whether there is wind at all."""
-    strongest = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
-    return World(batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=strongest, engine='python')
+    wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
+    return World(batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=wind, engine='python')
 
 
 def played(batch, strikes, progress=None):

@@ -6,6 +6,7 @@ shots, compiled code takes a hundredth of that, and has to be compiled first, on
 """
 from functools import lru_cache
 import logging
+import os
 from time import thread_time
 from typing import Callable, NamedTuple
 
@@ -16,6 +17,7 @@ from .orientation import turn
 from .piece import put_down
 
 ENGINES = 'auto', 'python', 'compiled'
+VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate` and `simulate_many`: for tests
 WORTH_COMPILING = 10.0  # s that plain Python has taken: compiling takes about half a minute, once a machine
 LOG = logging.getLogger('golf_sim_ros')
 
@@ -45,13 +47,15 @@ def best(function):
 
 
 def checked_engine(name):
-    """`name`, if it is that of an engine.
+    """`name`, if it is that of an engine; for 'auto' what the variable GOLF_SIM_ROS_ENGINE says, if it is set.
 
     Raises
     ------
     ValueError
         Naming the unknown engine and the known ones.
     """
+    if name == 'auto':
+        name = os.environ.get(VARIABLE) or name
     if name not in ENGINES:
         raise ValueError(f'engine {name!r} is unknown; known: {", ".join(ENGINES)}')
     return name

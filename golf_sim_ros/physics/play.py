@@ -126,7 +126,7 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     gusts = checked_gusts(wind)
     progress = progress or progress_bar
     batch = Batch(course, gusts, effects, accuracy, checked_engine(engine))
-    if engine == 'auto':
+    if batch.engine == 'auto':
         batch = batch._replace(engine=batch_engine(batch, len(strikes)))
     if executor is None:
         return played(batch, strikes, progress)

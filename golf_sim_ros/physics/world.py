@@ -15,7 +15,6 @@ from .detect import PILE_NEAR
 from .engine import PYTHON, Program, checked_engine, compiled
 from .effects import Scene, choose
 from .ground import surface
-from .piece import LONGEST_SHOT
 from .report import KINDS, Collision, objection, result, three
 from .shot import tee_off
 from .state import (BALL, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
@@ -81,7 +80,8 @@ class World:
         self._log, self._events, self._now, self._shots = new_log(64 + 16 * len(self.names)), [], 0.0, 0
         self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
-        self._engine = compiled() if checked_engine(engine) == 'compiled' else PYTHON
+        engine = checked_engine(engine)
+        self._engine = compiled() if engine == 'compiled' else PYTHON
         self._program = None  # of the compiled engine, if that may take over
         self._rebuild()
         self._crowd = scratch(len(self.names), 'ball_ball' in self.effects_on)
@@ -185,7 +185,8 @@ class World:
 
     def build(self, urgent=False):
         """The compiled engine on its way, begun now if nobody has: a `jit.build.Build`; see there."""
-        return Program.of(self.program).built(urgent, exercise, self.course, self.names, self._asked, self._preset)
+        scene = self.course, self.names, self._asked, self._preset
+        return Program.of(self.program).built(urgent, exercise, *scene)
 
     def _take_over(self):
         """Go on with the compiled engine, if that is ready; let it be built, if it is worth it."""
@@ -348,9 +349,10 @@ class World:
         """Run the engine up to `until` on the paths' clock, and keep what it tells."""
         if self._balls['end'].min() == inf:  # nothing will ever end: all balls rest
             return
-        start = self.time - self._now
+        start, run = self.time - self._now, self._engine.advance
+        if self._program:
+            run = partial(self._program.timed, run)
         while True:
-            run = partial(self._program.timed, self._engine.advance) if self._program else self._engine.advance
             status = run(self._model, self._balls, until, self._crowd, self._log)
             self._events += self._told(start)
             if status != LOG_FULL:
@@ -394,7 +396,8 @@ class World:
         ball['playing'] = ball['knocked'] = ball['water'] = ball['leans'] = ball['piled'] = 0
         for x, y, z, lower in spots(three(ball['struck_at']), self._model.land.ball.radius):
             if self._is_free(number, (x, y, z)):
-                touches, inside, wet = self._engine.put_down(self._model, ball, (x, y, z + lower), 2.0 * lower)
+                start = x, y, z + lower
+                touches, inside, wet = self._engine.put_down(self._model, ball, start, 2.0 * lower)
                 if lower == 0.0 or touches and inside <= surface.SAME_HEIGHT and not wet:
                     break
         else:

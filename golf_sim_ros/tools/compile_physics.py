@@ -8,11 +8,11 @@ from ..physics import World
 from ..physics.jit import cache
 from ..physics.jit.build import READY
 
-EPILOG = """One program serves every course with one ball, another every course with several. They are kept in
-a folder of their own for each version of the physics, which GOLF_SIM_ROS_CACHE can name. The exit code is 0 when
-all is compiled, 1 when it cannot be, 2 for wrong arguments."""
+EPILOG = """One program serves every course with one ball, another every course with several. They are
+kept in a folder of their own for each version of the physics; GOLF_SIM_ROS_CACHE names its parent. The exit
+code is 0 when all is compiled, 1 when it cannot be, 2 for wrong arguments."""
 PROGRAMS = {'one ball': ('ball',), 'several balls': ('red', 'blue')}
-WIDTH = 30  # characters of the bar
+BAR = '{desc:14}{percentage:3.0f} % |{bar}| {remaining} left'
 LOOK = 0.2  # s between two looks
 
 
@@ -38,29 +38,46 @@ def main(args=None):
 def parser():
     """Reader of the command line."""
     reader = argparse.ArgumentParser(prog='compile_physics', description=__doc__, epilog=EPILOG)
-    reader.add_argument('--course', default='golf_without_friends', help='a course whose effects are by name, or '
-                        'with an effect of your own, needs programs of its own')
+    reader.add_argument('--course', default='golf_without_friends',
+                        help='only a course with effects of its own needs programs of its own')
     reader.add_argument('--only', dest='programs', action='append', choices=list(PROGRAMS),
                         help='one of the programs; all if not given')
     return reader
 
 
 def compiled(name, world):
-    """Why the program called `name`, that of `world`, could not be compiled, or ''; a bar shows how far it is."""
-    build, shown = world.build(urgent=True), sys.stderr.isatty()
-    while not build.wait(LOOK):
-        if shown:
-            print('\r' + bar(name, build.progress), end='', file=sys.stderr, flush=True)
-    if build.state != READY:
-        return build.reason
-    print(('\r' if shown else '') + bar(name, 1.0), file=sys.stderr, flush=True)
-    return ''
+    """Why the program called `name`, that of `world`, could not be compiled, or ''; shows how far it is."""
+    build = world.build(urgent=True)
+    with bar(name) as shown:
+        while not build.wait(LOOK):
+            shown.update(round(100 * build.progress) - shown.n)
+        if build.state == READY:
+            shown.update(100 - shown.n)
+    return '' if build.state == READY else build.reason
 
 
-def bar(name, share):
-    """How far a program is, and what is left, as a line."""
-    done = round(share * WIDTH)
-    return f'{name:14}[{"#" * done}{"." * (WIDTH - done)}] {share:4.0%} done, {1.0 - share:4.0%} left'
+def bar(name):
+    """A bar of a hundred percent with the time left, where tqdm is installed; else nothing is shown."""
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        return NoBar()
+    return tqdm(total=100, desc=name, unit='%', bar_format=BAR)
+
+
+class NoBar:
+    """In place of tqdm's."""
+
+    n = 100
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        return None
+
+    def update(self, step):
+        """Show nothing."""
 
 
 if __name__ == '__main__':

@@ -80,7 +80,7 @@ def engines_here(play, world):
 
 
 def retold(play, world, shot, accuracy, engines):
-    """Tell of one shot, run by the engine that played it if that is one of `engines`; whether it is the same."""
+    """Tell of one shot, run by its engine if that is one of `engines`; whether it is the same."""
     name = f'shot {shot.strike["shot"]} ({shot.strike["ball"]})'
     if shot.gap:
         print(f'{name}: journal entries {shot.gap} are missing: it cannot be run again')

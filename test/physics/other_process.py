@@ -27,7 +27,7 @@ def run(function, *arguments, plain=True):
     folders = (Path(golf_sim_ros.__file__).parents[1], Path(__file__).parent, Path(__file__).parents[1])
     env = dict(os.environ, PYTHONPATH=os.pathsep.join([*map(str, folders), os.environ.get('PYTHONPATH', '')]))
     if plain:
-        env['NUMBA_DISABLE_JIT'] = '1'
+        env['GOLF_SIM_ROS_ENGINE'] = 'python'
     call = json.dumps([function.__module__, function.__name__, arguments], default=np.ndarray.tolist)
     done = subprocess.run([sys.executable, '-c', RUN, call], env=env, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

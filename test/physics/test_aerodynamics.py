@@ -6,7 +6,6 @@ from pathlib import Path
 
 from driving_range import TURF, launched, level
 from golf_sim_ros.physics import Air, LogProfile, PowerProfile, UniformProfile, simulate_many
-from golf_sim_ros.physics.jit import plain
 from golf_sim_ros.physics.effects.drag import DragLaw, drag_coefficient
 from golf_sim_ros.physics.effects.magnus import LiftLaw, lift_per_ratio
 from golf_sim_ros.physics.effects.wind import blowing, share
@@ -92,7 +91,7 @@ RATIO, REYNOLDS = np.meshgrid(np.geomspace(1e-6, 3.0, 120), np.geomspace(1e3, 4e
 
 def coefficients(ratio, reynolds):
     """Drag and lift coefficients."""
-    cd, cl = plain(drag_coefficient), plain(lift_per_ratio)
+    cd, cl = drag_coefficient, lift_per_ratio
     return np.array([(cd(DragLaw(), s * s, re * re), s * cl(LiftLaw(), s * s, re * re))
                      for s, re in zip(ratio.ravel(), reynolds.ravel())]).T
 
@@ -128,7 +127,7 @@ def test_wind_grows_with_height_without_a_kink(profile):
     size = 1e-4 * height
 
     def at(heights):
-        return np.array([plain(share)(wind, h) for h in heights])
+        return np.array([share(wind, h) for h in heights])
 
     assert (np.diff(at(height)) >= 0.0).all()
     second = at(height + size) - 2.0 * at(height) + at(height - size)

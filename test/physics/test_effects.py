@@ -5,7 +5,8 @@ from math import isfinite
 
 from driving_range import HARD, TURF, level
 from golf_sim_ros.physics import ACCURACY, EFFECTS, Air, Shot, World, register_effect, simulate
-from golf_sim_ros.physics.jit import entry
+from golf_sim_ros.physics.engine import missing
+from golf_sim_ros.physics.jit import compiled, entry
 from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, laws, pull
 from golf_sim_ros.physics.model import build, ground
 import numpy as np
@@ -85,18 +86,20 @@ def asked(effect, ground, flow, force):
             laws.longest_step(effect, ground, flow, force, 2.0))
 
 
-def said(name):
-    """All that of one ball."""
+def said(name, run=asked):
+    """All that of one ball, by `asked` or what it was compiled to."""
     velocity, spin = (40.0, 3.0, 14.0), (20.0, -280.0, 10.0)
     flow = laws.Flow(velocity, float(np.linalg.norm(velocity)), spin, (1.0, 2.0, 30.0), velocity)
     scene = SCENES['wind']
-    return asked(EFFECTS[name].record(scene), ground(scene.course), flow, (-8.0, 0.5, -6.0))
+    return run(EFFECTS[name].record(scene), ground(scene.course), flow, (-8.0, 0.5, -6.0))
 
 
 @effects
 def test_an_effect_says_the_same_compiled(name, told):
-    for compiled, plain in zip(said(name), told[0][name]['said']):
-        assert compiled == pytest.approx(plain, rel=1e-12)
+    if missing():
+        pytest.skip(missing())
+    for machine, plain in zip(said(name, compiled(asked)), told[0][name]['said']):
+        assert machine == pytest.approx(plain, rel=1e-12)
 
 
 def answers(name):

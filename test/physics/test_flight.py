@@ -275,11 +275,11 @@ def shares_of_wind(name):
 
 def test_calm_air_has_no_wind_and_a_wind_that_comes_up_compiles_nothing():
     world = World(level(TURF))
-    calm = [type(record) for record in world._model.effects]
+    calm = world.program
     assert 'wind' not in world.effects_on and world.effects_off['wind'] == 'no wind'
     world.set_wind((1.0, 0.0, 0.0))
     assert 'wind' in world.effects_on and 'wind' not in world.effects_off
-    assert [type(record) for record in world._model.effects] == calm
+    assert world.program == calm
     world.set_wind((0.0, 0.0, 0.0))
     assert 'wind' not in world.effects_on
     assert 'constant_drag' not in EFFECTS

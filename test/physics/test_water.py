@@ -252,7 +252,7 @@ def test_many_shots_are_told_the_same():
 def test_a_course_with_water_compiles_nothing_that_one_without_does_not():
     wet, dry = World(pond(effects='auto')), World(pond(effects='auto', water=()))
     assert 'water' in wet.effects_on and dry.effects_off['water'] == 'no water'
-    assert wet._types() == dry._types()
+    assert wet.program == dry.program
 
 
 # Bounds

@@ -93,7 +93,7 @@ def reynolds_number(course):
 def record(scene):
     """Record for `scene`."""
     course = scene.course
-    return Drag(float(dynamic_push(course)), float(course.ball.radius), float(reynolds_number(course)), DragLaw())
+    return Drag(dynamic_push(course), course.ball.radius, reynolds_number(course), DragLaw())
 
 
 def idle(scene):

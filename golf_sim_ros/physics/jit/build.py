@@ -36,7 +36,7 @@ def missing():
 
 
 class Job(NamedTuple):
-    """What a child of some `niceness` does: import `modules`, which may register effects, call ``function(*args)``.
+    """What a child of some `niceness` does: it imports `modules`, which may register effects, then calls.
 
     Afterwards the program called `key` is compiled and kept.
     """
@@ -49,10 +49,11 @@ class Job(NamedTuple):
 
 
 class Build:
-    """Compiled code on its way: a child compiles all that ``function(*args)`` needs, then this process loads it.
+    """Compiled code on its way: a child compiles what ``function(*args)`` needs, then this process loads it.
 
-    It begins at once, in a thread; the child has the lowest priority, unless it is `urgent`. `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the
-    share of the compilation that is done, `reason` one line that says why it failed.
+    It begins at once, in a thread; the child has the lowest priority, unless it is `urgent`: somebody waits.
+    `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the share of the compilation that is
+    done, `reason` one line that says why it failed.
     """
 
     def __init__(self, urgent, key, function, *args):
@@ -76,7 +77,10 @@ class Build:
             self.state = READY
         except Unavailable as error:
             self.state, self.reason = FAILED, str(error)
-        self.ended.set()
+        except Exception as error:  # whatever a compiler may raise: plain Python goes on
+            self.state, self.reason = FAILED, f'{type(error).__name__}: {" ".join(str(error).split())[:200]}'
+        finally:
+            self.ended.set()
 
     def _compile_and_load(self):
         folder = cache.folder()
@@ -113,7 +117,7 @@ class Build:
     def _hand_over(self, job):
         """Give the child its job; the pipe stays open, for the child ends with it."""
         try:
-            self.child.stdin.write(len(job).to_bytes(8, 'big') + job)
+            self.child.stdin.write(job)
             self.child.stdin.flush()
         except BrokenPipeError:
             pass  # it has ended, and its exit code says why
@@ -143,13 +147,20 @@ def trouble(code, errors):
         return ''
     lines = [line.strip() for line in errors.splitlines() if line.strip()]
     ended = f'exit code {code}' if code > 0 else f'killed by {signal.Signals(-code).name}'
-    return f'numba {metadata.version("numba")} could not compile the physics ({ended}): {lines[-1][:200] if lines else "no word why"}'
+    errors = [line for line in lines if 'rror' in line]  # after which there may be frames
+    last = (errors or lines or ['it did not say why'])[-1][:200]
+    return f'{numba_version()} could not compile the physics ({ended}): {last}'
+
+
+def numba_version():
+    """Numba's name and version."""
+    return f'numba {metadata.version("numba")}'
 
 
 def main():
     """Run the job that comes in, as long as who sent it lives."""
-    size = int.from_bytes(sys.stdin.buffer.read(8), 'big')
-    job = pickle.loads(sys.stdin.buffer.read(size))
+    # Not sys.stdin: the lock of its buffer, in which the thread would wait, is in the way at the end.
+    job = pickle.load(open(0, 'rb', closefd=False))
     os.nice(job.niceness)
     Thread(target=end_with_parent, daemon=True).start()
     for module in job.modules:
@@ -163,7 +174,8 @@ def main():
 
 def end_with_parent():
     """End this process as soon as nobody holds the other end of its input."""
-    sys.stdin.buffer.read()
+    while os.read(0, 1):
+        pass
     os._exit(1)
 
 
