@@ -194,6 +194,39 @@ def test_rviz_that_is_not_installed_starts_nothing_and_says_so_in_one_line(domai
     assert 'rviz:=true needs the package rviz2' in nothing('rviz:=true')
 
 
+RVIZ = """#!/bin/sh
+trap 'exit 0' INT TERM
+for word in "$@"; do [ -f "$word" ] && cat "$word"; done > {heard}.part
+echo "$@" >> {heard}.part
+mv {heard}.part {heard}
+while :; do sleep 0.1; done
+"""
+
+
+@pytest.fixture
+def heard_by_rviz(tmp_path, monkeypatch):
+    """File with what a program in place of rviz2 has got: all files among its arguments, then these."""
+    heard, program = tmp_path / 'heard', tmp_path / 'lib' / 'rviz2' / 'rviz2'
+    index = tmp_path / 'share' / 'ament_index' / 'resource_index' / 'packages'
+    for folder in (index, program.parent):
+        folder.mkdir(parents=True)
+    (index / 'rviz2').touch()
+    program.write_text(RVIZ.format(heard=heard))
+    program.chmod(0o755)
+    monkeypatch.setenv('AMENT_PREFIX_PATH', str(tmp_path), prepend=os.pathsep)
+    return heard
+
+
+@pytest.mark.parametrize('follows', ['true', 'false'])
+def test_rviz_gets_the_view_the_namespace_and_simulated_time(launched, heard_by_rviz, follows):
+    launched('rviz:=true', f'publish_clock:={follows}', 'namespace:=game', 'wind:=false', 'log_level:=warn',
+             namespace='/game', nodes=['golf_sim'])
+    wait_until(heard_by_rviz.exists, 'RViz was started')
+    heard = heard_by_rviz.read_text()
+    assert 'rviz_default_plugins' in heard and '__ns:=/game' in heard and '--log-level warn' in heard
+    assert ('use_sim_time: true' in heard) == (follows == 'true')
+
+
 @pytest.mark.parametrize('word', ['params_file:=/none.yaml', 'wind_params_file:=/none.yaml', 'wind:=maybe',
                                   'publish_clock:=maybe'])
 def test_an_argument_that_cannot_be_used_starts_nothing_and_is_one_line(domain, word):
