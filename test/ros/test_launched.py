@@ -228,7 +228,8 @@ def test_rviz_gets_the_view_the_namespace_and_simulated_time(launched, heard_by_
 
 
 @pytest.mark.parametrize('word', ['params_file:=/none.yaml', 'wind_params_file:=/none.yaml', 'wind:=maybe',
-                                  'publish_clock:=maybe'])
+                                  'publish_clock:=maybe', 'balls:=[a', 'effects:=[drag, [gravity]]',
+                                  'balls:=[]'])
 def test_an_argument_that_cannot_be_used_starts_nothing_and_is_one_line(domain, word):
     assert word in nothing(word)
 

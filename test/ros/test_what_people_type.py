@@ -19,7 +19,8 @@ from golf_sim_ros.wind_node import DEFAULTS
 from processes import READY
 
 ROOT = Path(__file__).parents[2]
-PLAIN = {'NUMBA_DISABLE_JIT': '1'}  # starts at once
+# Starts at once, with numba or without.
+PLAIN = {'NUMBA_DISABLE_JIT': '1', 'PYTHONWARNINGS': 'ignore:numba is not installed:RuntimeWarning'}
 BEGUN = {'sim_node': READY, 'wind_node': 'the same gusts come again'}
 NODE = {'sim_node': 'golf_sim', 'wind_node': 'wind_generator'}
 
