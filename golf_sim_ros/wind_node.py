@@ -8,6 +8,7 @@ from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescri
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
+from .older_rclpy import after_set
 from .spinning import run
 from .wind.gusts import Gusts, GustSettings
 
@@ -47,7 +48,7 @@ class WindNode(Node):
         self._gusts = Gusts(self._settings(), self._seed(self._declare_seed()))
         self._started_at = self.get_clock().now()
         self._publisher = self.create_publisher(Vector3Stamped, 'wind', WIND_QOS)
-        self.add_post_set_parameters_callback(self._take_over)
+        after_set(self, self._take_over)
         self._timer = self.create_timer(1.0 / publish_rate, self._publish)
 
     def _declare_gust_parameters(self):
