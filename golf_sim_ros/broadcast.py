@@ -4,7 +4,6 @@ from time import monotonic
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
-from rclpy.event_handler import PublisherEventCallbacks
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
@@ -13,6 +12,7 @@ from visualization_msgs.msg import MarkerArray
 from . import messages
 from .diagnosis import diagnostic
 from .markers import course_markers
+from .older_rclpy import on_match, watch
 from .play_markers import Scene
 
 STREAM = QoSProfile(depth=10)  # reliable, volatile: only what is new counts
@@ -45,11 +45,14 @@ class Broadcast:
         self.scene = Scene(world)
         self.config, self.entries_since = '', 0
         self.open_balls(on_match(on_follower))
+        watch(node, [*self.poses.values(), *self.twists.values()], on_follower)
         make = node.create_publisher
         self.collisions = make(String, 'collisions', EVENTS)
         self.results = make(String, 'shot/result', EVENTS)
         self.journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.tell_config))
         self.course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
+        watch(node, [self.journal], self.tell_config)
+        watch(node, [self.course], on_viewer)
         self.play = make(MarkerArray, 'play/markers', STREAM)
         self.diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
 
@@ -122,9 +125,3 @@ class Broadcast:
 def heard(publisher):
     """Whether anybody listens; if not, a message of which nothing is kept need not be made."""
     return publisher.get_subscription_count() > 0
-
-
-def on_match(callback):
-    """Event callbacks of a publisher that call `callback` whenever one more subscription matches."""
-    return PublisherEventCallbacks(
-        matched=lambda status: callback() if status.current_count_change > 0 else None)

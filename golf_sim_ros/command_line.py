@@ -19,6 +19,7 @@ HELP, VERSION = ('-h', '--help'), '--version'
 PARAM, REMAP, FILE = ('-p', '--param'), ('-r', '--remap'), '--params-file'
 TAKES_ONE = {*PARAM, *REMAP, FILE, '--log-level', '-e', '--enclave', '--log-config-file'}
 ASSIGN, SECTION = ':=', 'ros__parameters'
+OF_LAUNCH = 'launch_params_'  # files of launch_ros: what a launch file gives to a single node, under /**
 UNKNOWN = rclpy_implementation.UnknownROSArgsError
 IN_RCL = re.compile(r', at [^\s,]+:\d+|^Failed to parse ROS arguments: ')  # of no use to who typed it
 
@@ -178,10 +179,10 @@ def only_for_all_nodes(words, node):
     shared = set()
     for path in params_files(words):
         for section, names in sections(path):
-            if section in ('*', '**'):
-                shared |= names
-            elif section == node:
+            if section == node or os.path.basename(path).startswith(OF_LAUNCH):
                 own |= names
+            elif section in ('*', '**'):
+                shared |= names
     return shared - own
 
 

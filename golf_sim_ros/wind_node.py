@@ -9,6 +9,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from .command_line import Program
+from .older_rclpy import after_set
 from .parameter_values import fit, warn_of_unknown
 from .spinning import run
 from .wind.gusts import Gusts, GustSettings
@@ -62,7 +63,7 @@ class WindNode(Node):
         self._gusts = Gusts(self._settings(), self._seed(given['seed']))
         self._started_at = self.get_clock().now()
         self._publisher = self.create_publisher(Vector3Stamped, 'wind', WIND_QOS)
-        self.add_post_set_parameters_callback(self._take_over)
+        after_set(self, self._take_over)
         self._timer = self.create_timer(1.0 / given['publish_rate'], self._publish)
 
     def _declare(self, name):

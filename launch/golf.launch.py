@@ -7,13 +7,13 @@ An argument that is left out says nothing to the nodes, so it never overrides a 
 from pathlib import Path
 from typing import List
 
-from ament_index_python.packages import get_package_prefix, get_package_share_directory, PackageNotFoundError
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
-from launch.substitutions import TextSubstitution
+from launch.substitutions import SubstitutionFailure, TextSubstitution
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
+from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 import yaml
 
 # Arguments that are parameters of the simulator; their defaults are in config/sim.yaml.
@@ -75,7 +75,7 @@ def simulator(given, common):
     for name in (*TEXTS, *LISTS, *NUMBERS, 'publish_clock'):
         if given[name]:
             kind = str if name in TEXTS else List[str] if name in LISTS else None  # None: as YAML reads it
-            value = listed(given[name]) if name in LISTS else TextSubstitution(text=given[name])
+            value = listed(name, given[name]) if name in LISTS else TextSubstitution(text=given[name])
             parameters[name] = ParameterValue(value, value_type=kind)
     return Node(package='golf_sim_ros', executable='sim_node', name='golf_sim', output='screen',
                 parameters=[*params_files(given, 'params_file'), parameters],
@@ -92,10 +92,10 @@ def wind(context, given, common):
 def rviz(context, given, common):
     """RViz, with what there is to see; RuntimeError where it is not installed."""
     try:
-        get_package_prefix('rviz2')
-    except PackageNotFoundError:
+        ExecutableInPackage(package='rviz2', executable='rviz2').perform(context)
+    except (LookupError, SubstitutionFailure):  # no package, no program in it
         raise RuntimeError(f'rviz:={given["rviz"]} needs the package rviz2: nothing is started') from None
-    view = Path(get_package_share_directory('golf_sim_ros'), 'rviz', 'golf.rviz')
+    view = Path(FindPackageShare('golf_sim_ros').perform(context), 'rviz', 'golf.rviz')
     return Node(package='rviz2', executable='rviz2', arguments=['-d', str(view)],
                 parameters=[follow_clock(context, given)], **common)
 
@@ -114,10 +114,17 @@ def is_true(context, given, name):
         raise RuntimeError(f'{name}:={given[name]} must be true or false: nothing is started') from None
 
 
-def listed(text):
-    """Names in a list as YAML has it, or with commas or spaces between."""
-    names = yaml.load(text, Loader=yaml.BaseLoader)  # no name becomes a number, or a bool as y and n would
-    return names if isinstance(names, list) else text.replace(',', ' ').split()
+def listed(name, text):
+    """Names in a list as YAML has it, or with commas or spaces between; RuntimeError where it is none."""
+    if not text.startswith('['):
+        return text.replace(',', ' ').split()
+    try:
+        names = yaml.load(text, Loader=yaml.BaseLoader)  # all are text
+    except yaml.YAMLError:
+        names = None
+    if not names or not all(isinstance(each, str) for each in names):
+        raise RuntimeError(f'{name}:={text} must be names, as in a or [a, b]: nothing is started')
+    return names
 
 
 def params_files(given, *names):

@@ -13,6 +13,7 @@ from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
 from ..messages import fill
+from ..older_rclpy import publisher_count
 
 # A result repeats the strike rounded to 1e-4.
 ROUNDING = 0.6e-4
@@ -123,7 +124,7 @@ class Player(Node):
         self.struck_at, self.first_position = time.monotonic(), None
         self._shots.publish(twist(velocity, spin))
         while not self._wait(lambda: self._own_result(velocity, spin), 1.0):
-            if not self._results.get_publisher_count():
+            if not publisher_count(self, self._results):
                 raise NoShot('the sim went away before the shot ended')
         result = self._own_result(velocity, spin)
         if result['status'] in ('rejected', 'aborted'):

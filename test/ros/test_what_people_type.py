@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What people type: every line of the table in docs/interface.md, and params files."""
+import os
 from pathlib import Path
 import re
 import shlex
+import threading
 
 import pytest
 from rcl_interfaces.msg import ParameterType
@@ -17,7 +19,8 @@ from golf_sim_ros.wind_node import DEFAULTS
 from processes import READY
 
 ROOT = Path(__file__).parents[2]
-PLAIN = {'NUMBA_DISABLE_JIT': '1'}  # starts at once
+# Starts at once, with numba or without.
+PLAIN = {'NUMBA_DISABLE_JIT': '1', 'PYTHONWARNINGS': 'ignore:numba is not installed:RuntimeWarning'}
 BEGUN = {'sim_node': READY, 'wind_node': 'the same gusts come again'}
 NODE = {'sim_node': 'golf_sim', 'wind_node': 'wind_generator'}
 
@@ -47,12 +50,15 @@ def quoted(answer):
 
 @pytest.fixture
 def began(start):
-    """`began('sim_node', ...)` gives the process of a node once it runs."""
+    """`began('sim_node', ...)` gives the process of a node once it runs; it ends with the test."""
+    processes = []
+
     def begin(program, *arguments):
-        process = start(program, *arguments, environment=PLAIN)
-        process.wait_for(BEGUN[program])
-        return process
-    return begin
+        processes.append(start(program, *arguments, environment=PLAIN))
+        processes[-1].wait_for(BEGUN[program])
+        return processes[-1]
+    yield begin
+    assert [process.stop() for process in processes] == [0] * len(processes)
 
 
 def value_of(client, node, name):
@@ -84,7 +90,6 @@ def test_a_parameter_takes_what_is_typed(began, client, typed):
     name = re.match('`(.*?)`', ROWS[typed]).group(1)
     assert_is(value_of(client, NODE[program], name), ROWS[typed])
     assert 'WARN' not in process.output
-    assert process.stop() == 0
 
 
 @rows('exit code')
@@ -102,7 +107,6 @@ def test_what_may_be_meant_is_one_warning_and_the_node_runs(began, typed):
     process = began(program, *arguments)
     line, = [line for line in process.lines if 'WARN' in line]
     assert quoted(ROWS[typed]) in line
-    assert process.stop() == 0
 
 
 @pytest.fixture(scope='module')
@@ -217,3 +221,21 @@ def test_what_is_typed_for_one_node_is_not_only_for_all(tmp_path):
     file.write_text('ns:\n  /*: {ros__parameters: {a: 1, b: 2, c: 3}}\n')
     words = ['--ros-args', '--params-file', str(file), '-p', 'a:=1', '-p', 'me:b:=2', '--', '-p', 'c:=3']
     assert only_for_all_nodes(words, 'me') == {'c'}
+
+
+def test_a_mistyped_name_in_somebodys_launch_file_is_a_warning(began, tmp_path):
+    file = tmp_path / 'launch_params_x7a'  # as launch_ros names and writes what a Node's `parameters` say
+    file.write_text('/**:\n  ros__parameters: {sped: 3}\n')
+    process = began('wind_node', '--ros-args', '--params-file', str(file))
+    line, = [line for line in process.lines if 'WARN' in line]
+    assert "parameter 'sped' is unknown and does nothing; nearest known: speed" in line
+
+
+def test_a_params_file_may_be_a_pipe(began, client, tmp_path):
+    pipe = tmp_path / 'pipe'
+    os.mkfifo(pipe)
+    writer = threading.Thread(
+        target=pipe.write_text, args=('wind_generator: {ros__parameters: {speed: 9}}\n',), daemon=True)
+    writer.start()
+    began('wind_node', '--ros-args', '--params-file', str(pipe))
+    assert value_of(client, 'wind_generator', 'speed') == 9.0

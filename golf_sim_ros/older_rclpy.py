@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the rclpy of ROS 2 Humble (3.3) lacks, made of what it has; with a newer one, the real thing."""
+from functools import partial
+
+from rcl_interfaces.msg import ParameterEvent
+from rclpy.clock import Clock, ClockType
+from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_parameter_events
+
+try:
+    from rclpy.event_handler import PublisherEventCallbacks
+except ImportError:
+    PublisherEventCallbacks = None
+
+PERIOD = 0.2  # s from one look at who listens to the next
+
+
+def after_set(node, callback):
+    """Have `callback(parameters)` called whenever parameters of `node` have been set.
+
+    Without `add_post_set_parameters_callback` the node listens to what it tells of itself.
+    """
+    if hasattr(node, 'add_post_set_parameters_callback'):
+        node.add_post_set_parameters_callback(callback)
+        return
+    node.create_subscription(ParameterEvent, '/parameter_events', partial(_on_event, node, callback),
+                             qos_profile_parameter_events)
+
+
+def _on_event(node, callback, event):
+    """Tell the parameters that an event says were set, if it is about this node."""
+    if event.node == node.get_fully_qualified_name() and event.changed_parameters:
+        callback([Parameter.from_parameter_msg(changed) for changed in event.changed_parameters])
+
+
+def on_match(callback):
+    """Event callbacks for publishers that call `callback` whenever one more subscription matches.
+
+    None where there is no such event; there `watch` the publishers.
+    """
+    if PublisherEventCallbacks is None:
+        return None
+    return PublisherEventCallbacks(
+        matched=lambda status: callback() if status.current_count_change > 0 else None)
+
+
+def watch(node, publishers, callback):
+    """Call `callback` when one of `publishers` has more subscriptions, where no event tells (`on_match`)."""
+    if PublisherEventCallbacks is None:
+        counts = [0] * len(publishers)
+        node.create_timer(PERIOD, partial(_compare, publishers, counts, callback),
+                          clock=Clock(clock_type=ClockType.STEADY_TIME))
+
+
+def _compare(publishers, counts, callback):
+    """Call `callback` if anyone has joined since the last call. Writes counts."""
+    now = [publisher.get_subscription_count() for publisher in publishers]
+    joined = any(new > old for new, old in zip(now, counts))
+    counts[:] = now
+    if joined:
+        callback()
+
+
+def publisher_count(node, subscription):
+    """How many publishers a subscription of `node` has."""
+    if hasattr(subscription, 'get_publisher_count'):
+        return subscription.get_publisher_count()
+    return node.count_publishers(subscription.topic_name)
