@@ -15,6 +15,7 @@ from .broadcast import Broadcast
 from .course import load_course
 from .game import Game
 from .messages import triple
+from .older_rclpy import after_set
 from .parameters import checked, declared, PROGRAM
 from .physics import World
 from .physics.world import checked_wind
@@ -79,7 +80,7 @@ class SimNode(Node):
         self.create_service(Trigger, '~/reset', self.on_reset)
         self.create_service(SetBool, '~/pause', self.on_pause)
         self.add_on_set_parameters_callback(partial(checked, given.publish_clock))
-        self.add_post_set_parameters_callback(self.on_parameters)
+        after_set(self, self.on_parameters)
 
     def introduce(self):
         """Tell in the log what is played, what is simulated, and how to strike."""

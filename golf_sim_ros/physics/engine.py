@@ -17,7 +17,7 @@ from .orientation import turn
 from .piece import put_down
 
 ENGINES = 'auto', 'python', 'compiled'
-VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate` and `simulate_many`: for tests
+VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate`, `simulate_many`: for tests
 WORTH_COMPILING = 10.0  # s that plain Python has taken: compiling takes about half a minute, once a machine
 LOG = logging.getLogger('golf_sim_ros')
 

@@ -300,16 +300,6 @@ def test_a_signal_ends_a_flying_sim_with_exit_code_0(start, make_golfer, number)
     assert 'Traceback' not in process.output and 'FATAL' not in process.output
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_a_compiling_sim_with_exit_code_0(start, tmp_path, number):
-    pytest.importorskip('numba')
-    process = start('sim_node', *parameters('/compiling'), environment={
-        'NUMBA_CACHE_DIR': str(tmp_path), 'NUMBA_DISABLE_JIT': '0', 'XDG_CACHE_HOME': str(tmp_path)})
-    process.wait_for('waiting for the physics to be compiled')
-    assert process.stop(number) == 0
-    assert 'Traceback' not in process.output
-
-
 def test_two_balls_are_struck_apart_and_fly_at_the_same_time(start, make_golfer):
     start('sim_node', *parameters('/two', balls="['red', 'blue']")).wait_for(READY)
     red, blue = make_golfer('/two', 'red'), make_golfer('/two', 'blue')
