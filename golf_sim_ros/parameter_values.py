@@ -92,13 +92,14 @@ def fit(node, defaults):
     overrides = node._parameter_overrides  # rclpy tells nobody of them before they are declared
     for name in defaults.keys() & overrides.keys():
         overrides[name] = fitted(overrides[name], defaults[name])
-    node.add_pre_set_parameters_callback(lambda changes: [live(node, change, defaults) for change in changes])
+    if hasattr(node, 'add_pre_set_parameters_callback'):  # without it rclpy refuses an integer
+        node.add_pre_set_parameters_callback(lambda changes: [live(node, each, defaults) for each in changes])
 
 
 def live(node, parameter, defaults):
     """`parameter`, fitted where it can be; an `Unknown` one is refused."""
     if not node.has_parameter(parameter.name):
-        raise Unknown(parameter.name, known(node))
+        raise Unknown(parameter.name, known(defaults))
     if parameter.value is None or parameter.name not in defaults:
         return parameter
     try:
@@ -120,12 +121,12 @@ def unknown(name, names):
     return f'parameter {name!r} is unknown and does nothing; nearest known: {nearest}'
 
 
-def known(node):
-    """Names of the parameters of `node` that a user may set."""
-    return [name for name in node.list_parameters([], 0).names if '.' not in name]
+def known(defaults):
+    """Names of the parameters that a user may set."""
+    return [*defaults, 'use_sim_time']
 
 
-def warn_of_unknown(node, words=None):
+def warn_of_unknown(node, defaults, words=None):
     """Warn once of each parameter given to `node` that it has not declared.
 
     What a params file says to all nodes (`/**`) may well be for another one: of that there is no warning.
@@ -134,4 +135,4 @@ def warn_of_unknown(node, words=None):
     shared = only_for_all_nodes(sys.argv[1:] if words is None else words, node.get_name())
     for name in node._parameter_overrides:
         if not node.has_parameter(name) and name not in shared:
-            node.get_logger().warning(unknown(name, known(node)))
+            node.get_logger().warning(unknown(name, known(defaults)))

@@ -55,7 +55,7 @@ def declared(node):
     defaults = Parameters()._asdict()
     fit(node, defaults)
     values = Parameters(**{name: declare(node, name, default) for name, default in defaults.items()})
-    warn_of_unknown(node)
+    warn_of_unknown(node, defaults)
     if values.engine not in ENGINES:
         raise ValueError(f'engine {values.engine!r} is unknown; known: {", ".join(ENGINES)}')
     if values.publish_rate > values.rate:

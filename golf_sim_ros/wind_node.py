@@ -59,7 +59,7 @@ class WindNode(Node):
                          parameter_overrides=parameter_overrides)
         fit(self, DEFAULTS)
         given = {name: self._declare(name) for name in DEFAULTS}
-        warn_of_unknown(self)
+        warn_of_unknown(self, DEFAULTS)
         self._gusts = Gusts(self._settings(), self._seed(given['seed']))
         self._started_at = self.get_clock().now()
         self._publisher = self.create_publisher(Vector3Stamped, 'wind', WIND_QOS)
