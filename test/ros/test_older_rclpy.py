@@ -64,8 +64,7 @@ def test_where_events_tell_who_joins_nobody_looks():
 
 
 def test_the_sim_notices_who_joins_and_plays(start_as_humble, client, make_golfer):
-    sim = start_as_humble('sim_node', *parameters('/old_sim', real_time_factor=10.0),
-                          kept='add_post_set_parameters_callback')
+    sim = start_as_humble('sim_node', *parameters('/old_sim', real_time_factor=10.0))
     sim.wait_for(READY)
     markers = client.listen(MarkerArray, '/old_sim/course/markers')  # volatile: only what is told once more
     poses = client.listen(PoseStamped, '/old_sim/ball/pose')
