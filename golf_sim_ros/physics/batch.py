@@ -35,7 +35,7 @@ def batch_engine(batch, shots):
     program = Program.of(f'batch {world_of(batch).types}')
     if shots < MANY_SHOTS and program.build is None and not program.is_kept:
         return 'python'
-    build = program.built(True, played, batch._replace(engine='compiled'), ANY_SHOT)
+    build = program.built(True, played, (batch._replace(engine='compiled'), ANY_SHOT))
     if not build.wait(SHORT_WAIT):
         LOG.warning('compiling the physics for %d shots, up to a minute, once a machine', shots)
         build.wait()

@@ -12,7 +12,7 @@ from typing import Callable, NamedTuple
 
 from . import jit
 from .advance import advance
-from .jit.build import READY, Build, is_kept, missing
+from .jit.build import READY, Build, Part, is_kept, missing
 from .orientation import turn
 from .piece import put_down
 
@@ -47,7 +47,7 @@ def best(function):
 
 
 def checked_engine(name):
-    """`name`, if it is that of an engine; for 'auto' what the variable GOLF_SIM_ROS_ENGINE says, if it is set.
+    """`name`, if it is that of an engine; for 'auto' what the variable GOLF_SIM_ROS_ENGINE says, if set.
 
     Raises
     ------
@@ -87,10 +87,10 @@ class Program:
         """Whether its code is compiled and loaded."""
         return self.build is not None and self.build.state == READY
 
-    def built(self, urgent, function, *args):
+    def built(self, urgent, function, args):
         """Its `jit.build.Build`, begun now if nobody has: of all that ``function(*args)`` runs."""
         if self.build is None:
-            self.build = Build(urgent, self.key, function, *args)
+            self.build = Build(urgent, Part(self.key, function, args))
         return self.build
 
     def timed(self, function, *args):

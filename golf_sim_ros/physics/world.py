@@ -15,6 +15,7 @@ from .detect import PILE_NEAR
 from .engine import PYTHON, Program, checked_engine, compiled
 from .effects import Scene, choose
 from .ground import surface
+from .jit.build import Part
 from .report import KINDS, Collision, objection, result, three
 from .shot import tee_off
 from .state import (BALL, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
@@ -185,8 +186,12 @@ class World:
 
     def build(self, urgent=False):
         """The compiled engine on its way, begun now if nobody has: a `jit.build.Build`; see there."""
-        scene = self.course, self.names, self._asked, self._preset
-        return Program.of(self.program).built(urgent, exercise, *scene)
+        return Program.of(self.program).built(urgent, *self.part[1:])
+
+    @property
+    def part(self):
+        """What a `jit.build.Build` has to know of the program of this world's compiled engine."""
+        return Part(self.program, exercise, (self.course, self.names, self._asked, self._preset))
 
     def _take_over(self):
         """Go on with the compiled engine, if that is ready; let it be built, if it is worth it."""

@@ -6,13 +6,13 @@ import sys
 from ..course import CourseError, load_course
 from ..physics import World
 from ..physics.jit import cache
-from ..physics.jit.build import READY
+from ..physics.jit.build import Build, READY
 
 EPILOG = """One program serves every course with one ball, another every course with several. They are
 kept in a folder of their own for each version of the physics; GOLF_SIM_ROS_CACHE names its parent. The exit
 code is 0 when all is compiled, 1 when it cannot be, 2 for wrong arguments."""
 PROGRAMS = {'one ball': ('ball',), 'several balls': ('red', 'blue')}
-BAR = '{desc:14}{percentage:3.0f} % |{bar}| {remaining} left'
+BAR = '{percentage:3.0f} % |{bar}| {remaining} left'
 LOOK = 0.2  # s between two looks
 
 
@@ -21,16 +21,15 @@ def main(args=None):
     options = parser().parse_args(args)
     try:
         course = load_course(options.course)
-        for name in options.programs or PROGRAMS:
-            reason = compiled(name, World(course, PROGRAMS[name], engine='python'))
-            if reason:
-                print(f'compile_physics: {reason}', file=sys.stderr)
-                return 1
+        worlds = [World(course, PROGRAMS[name], engine='python') for name in options.programs or PROGRAMS]
+        reason = compiled([world.part for world in worlds])
     except CourseError as error:
-        print(f'compile_physics: {" ".join(str(error).split())}', file=sys.stderr)
-        return 1
+        reason = ' '.join(str(error).split())
     except KeyboardInterrupt:
         return 130
+    if reason:
+        print(f'compile_physics: {reason}', file=sys.stderr)
+        return 1
     print(f'kept in {cache.folder().path}')
     return 0
 
@@ -45,10 +44,10 @@ def parser():
     return reader
 
 
-def compiled(name, world):
-    """Why the program called `name`, that of `world`, could not be compiled, or ''; shows how far it is."""
-    build = world.build(urgent=True)
-    with bar(name) as shown:
+def compiled(parts):
+    """Why the programs of `parts` could not be compiled, or ''; a bar shows how far it is."""
+    build = Build(True, *parts)
+    with bar() as shown:
         while not build.wait(LOOK):
             shown.update(round(100 * build.progress) - shown.n)
         if build.state == READY:
@@ -56,13 +55,13 @@ def compiled(name, world):
     return '' if build.state == READY else build.reason
 
 
-def bar(name):
+def bar():
     """A bar of a hundred percent with the time left, where tqdm is installed; else nothing is shown."""
     try:
         from tqdm import tqdm
     except ImportError:
         return NoBar()
-    return tqdm(total=100, desc=name, unit='%', bar_format=BAR)
+    return tqdm(total=100, unit='%', bar_format=BAR)
 
 
 class NoBar:

@@ -17,13 +17,14 @@ from golf_sim_ros.course import load_course, shipped_courses
 from golf_sim_ros.physics import Air, EngineUnavailable, PowerProfile, World, simulate, simulate_many, Shot
 from golf_sim_ros.physics import batch, engine
 from golf_sim_ros.physics.jit import build
-from golf_sim_ros.physics.jit.build import Build, FAILED, READY
+from golf_sim_ros.physics.jit.build import Build, FAILED, Part, READY
 
 needs_numba = pytest.mark.skipif(bool(engine.missing()), reason=engine.missing() or 'numba is here')
 COURSES = sorted(shipped_courses())
 OTHER_COURSES = {
     'hard ground': level(HARD), 'no air': level(TURF, air=Air(pressure=0.0)),
-    'a power law': level(TURF, wind_profile=PowerProfile()), 'gravity by name': level(TURF, effects=('gravity',)),
+    'a power law': level(TURF, wind_profile=PowerProfile()),
+    'gravity by name': level(TURF, effects=('gravity',)),
 }
 ROOT = Path(__file__).parents[2]
 PATIENCE = 120.0  # s
@@ -175,7 +176,7 @@ def test_a_compiler_that_aborts_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'missing', lambda: '')
     monkeypatch.setattr(build, 'is_kept', lambda key: False)
     monkeypatch.setattr(build, 'numba_version', lambda: 'numba 0.65.0')
-    aborted = Build(True, 'nothing', os.abort)
+    aborted = Build(True, Part('nothing', os.abort, ()))
     assert aborted.wait(PATIENCE) and aborted.state == FAILED
     assert aborted.reason.startswith('numba 0.65.0 could not compile the physics (killed by SIGABRT): ')
     assert '\n' not in aborted.reason
@@ -185,7 +186,7 @@ def test_a_compiler_that_raises_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'missing', lambda: '')
     monkeypatch.setattr(build, 'is_kept', lambda key: False)
     monkeypatch.setattr(build, 'numba_version', lambda: 'numba 0.65.0')
-    raised = Build(True, 'nothing', json.loads, '{')
+    raised = Build(True, Part('nothing', json.loads, ('{',)))
     assert raised.wait(PATIENCE) and raised.state == FAILED
     assert '(exit code 1): json.decoder.JSONDecodeError: Expecting property name' in raised.reason
 
@@ -194,17 +195,18 @@ def test_where_nothing_can_be_kept_nothing_is_compiled(monkeypatch, tmp_path):
     (tmp_path / 'file').touch()
     monkeypatch.setenv('GOLF_SIM_ROS_CACHE', str(tmp_path / 'file'))
     monkeypatch.setattr(build, 'missing', lambda: '')
-    nowhere = Build(True, 'nothing', os.abort)
+    nowhere = Build(True, Part('nothing', os.abort, ()))
     assert nowhere.wait(PATIENCE) and nowhere.state == FAILED
     assert nowhere.reason.startswith('GOLF_SIM_ROS_CACHE: ')
 
 
 def test_a_child_ends_with_its_parent(tmp_path):
     code = ("import time; from golf_sim_ros.physics.jit import build; build.missing = lambda: ''; "
-            "build.is_kept = lambda key: False; one = build.Build(False, 'key', time.sleep, 600.0)\n"
+            "build.is_kept = lambda key: False; sleep = build.Part('key', time.sleep, (600.0,))\n"
+            "one = build.Build(False, sleep)\n"
             "while not one.child: time.sleep(0.01)\n"
             "print(one.child.pid, flush=True); time.sleep(600.0)")
-    with subprocess.Popen([sys.executable, '-c', code], cwd=ROOT, stdout=subprocess.PIPE, text=True) as parent:
+    with subprocess.Popen([sys.executable, '-c', code], cwd=ROOT, stdout=subprocess.PIPE) as parent:
         child = int(parent.stdout.readline())
         parent.kill()
     deadline = time.monotonic() + PATIENCE

@@ -84,7 +84,8 @@ def test_a_compiler_that_cannot_be_had_is_one_line_and_the_play_goes_on(start, m
 
 
 def test_the_compiled_engine_that_is_asked_for_and_cannot_be_had_is_a_refusal(start):
-    sim = start('sim_node', *parameters('/refused', engine='compiled'), environment={'NUMBA_DISABLE_JIT': '1'})
+    sim = start('sim_node', *parameters('/refused', engine='compiled'),
+                environment={'NUMBA_DISABLE_JIT': '1'})
     assert sim.wait() == 1
     fatal = [line for line in sim.lines if 'FATAL' in line]
     assert len(fatal) == 1 and "engine 'compiled' cannot be had: " in fatal[0]

@@ -35,31 +35,34 @@ def missing():
     return ''
 
 
-class Job(NamedTuple):
-    """What a child of some `niceness` does: it imports `modules`, which may register effects, then calls.
+class Part(NamedTuple):
+    """The program called `key`, of which ``function(*args)`` runs all."""
 
-    Afterwards the program called `key` is compiled and kept.
-    """
-
-    niceness: int
     key: str
-    modules: tuple
     function: Callable
     args: tuple
 
 
+class Job(NamedTuple):
+    """What a child of some `niceness` does: import `modules`, which may register effects, then run `parts`."""
+
+    niceness: int
+    modules: tuple
+    parts: tuple
+
+
 class Build:
-    """Compiled code on its way: a child compiles what ``function(*args)`` needs, then this process loads it.
+    """Compiled code on its way: a child compiles what `parts` need, then this process loads it.
 
     It begins at once, in a thread; the child has the lowest priority, unless it is `urgent`: somebody waits.
     `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the share of the compilation that is
     done, `reason` one line that says why it failed.
     """
 
-    def __init__(self, urgent, key, function, *args):
+    def __init__(self, urgent, *parts):
         self.state, self.progress, self.reason = COMPILING, 0.0, ''
         self.ended, self.child = Event(), None
-        self.job = Job(0 if urgent else LOWEST, key, foreign_modules(), function, args)
+        self.job = Job(0 if urgent else LOWEST, foreign_modules(), parts)
         Thread(target=self._run, name='build of the physics', daemon=True).start()
 
     def wait(self, seconds=None):
@@ -83,16 +86,16 @@ class Build:
             self.ended.set()
 
     def _compile_and_load(self):
-        folder = cache.folder()
-        reason = missing() or ('' if folder.writable or is_kept(self.job.key) else folder.reason)
-        if reason:
-            raise Unavailable(reason)
-        if not is_kept(self.job.key):
+        if missing():
+            raise Unavailable(missing())
+        if not all(is_kept(part.key) for part in self.job.parts):
+            if not cache.folder().writable:
+                raise Unavailable(cache.folder().reason)
             trouble = self._compile({})
             if trouble and self._compile(ORDINARY):  # the private parts may be what this numba does not like
                 raise Unavailable(trouble)
         self.state = LOADING
-        self.job.function(*self.job.args)
+        run(self.job.parts)
 
     def _compile(self, environment):
         """Why a child could not compile, or ''."""
@@ -136,9 +139,20 @@ def is_kept(key):
 
 def mark(key):
     """Path of the file that says that the program called `key` is in the cache."""
-    made_with = [f'{package} {metadata.version(package)}' for package in ('numba', 'llvmlite', 'numpy')]
-    name = hashlib.sha256(' '.join([key, platform.python_version(), *made_with]).encode()).hexdigest()[:16]
-    return cache.folder().path / f'{name}.compiled'
+    made_with = [metadata.version(package) for package in ('numba', 'llvmlite', 'numpy')]
+    text = ' '.join([key, platform.python_version(), *made_with, processor()])
+    return cache.folder().path / f'{hashlib.sha256(text.encode()).hexdigest()[:16]}.compiled'
+
+
+def processor():
+    """What machine code is for: what NUMBA_CPU_NAME says, or else all that Linux tells of this processor."""
+    named = os.environ.get('NUMBA_CPU_NAME', '') + os.environ.get('NUMBA_CPU_FEATURES', '')
+    try:
+        with open('/proc/cpuinfo', encoding='utf-8') as file:
+            about = {line for line in file if line.startswith(('model', 'flags', 'Features', 'CPU'))}
+    except OSError:
+        about = {platform.processor()}
+    return f'{platform.machine()} {named or sorted(about)}'
 
 
 def trouble(code, errors):
@@ -166,10 +180,17 @@ def main():
     for module in job.modules:
         import_module(module)
     from .progress import telling_progress
-    with telling_progress(sys.stdout):
-        job.function(*job.args)
-    mark(job.key).touch()
+    with telling_progress(sys.stdout, len(job.parts)):
+        for part in job.parts:
+            run([part])
+            mark(part.key).touch()
     return 0
+
+
+def run(parts):
+    """Run `parts`: what they need is compiled then, or loaded."""
+    for part in parts:
+        part.function(*part.args)
 
 
 def end_with_parent():

@@ -4,15 +4,16 @@ from contextlib import contextmanager
 
 from numba.core import event
 
-FUNCTIONS = 520  # of a program, about; each takes about as long as another
+FUNCTIONS, MORE = 520, 90  # of a first program, about, and of one more; each takes about as long
 LEFT_TO_LINK = 0.97  # at the end everything is linked and optimised once more
 
 
 class Counter(event.Listener):
-    """Writes the share that is done into `file` whenever it has grown by a percent."""
+    """Writes the share that is done of some `programs` into `file` whenever it has grown by a percent."""
 
-    def __init__(self, file):
+    def __init__(self, file, programs):
         self.file, self.count, self.told = file, 0, 0.0
+        self.functions = FUNCTIONS + MORE * (programs - 1)
 
     def on_start(self, event):
         """Count nothing: a function's compilation begins before that of those it calls."""
@@ -20,16 +21,16 @@ class Counter(event.Listener):
     def on_end(self, event):
         """Count a function that is compiled."""
         self.count += 1
-        share = min(self.count / FUNCTIONS, LEFT_TO_LINK)
+        share = min(self.count / self.functions, LEFT_TO_LINK)
         if share - self.told >= 0.01:
             self.told = share
             print(f'{share:.2f}', file=self.file, flush=True)
 
 
 @contextmanager
-def telling_progress(file):
-    """Write lines with the share that is done into `file`, as long as this lasts."""
-    counter = Counter(file)
+def telling_progress(file, programs):
+    """Write lines with the share that is done of some `programs` into `file`, as long as this lasts."""
+    counter = Counter(file, programs)
     event.register('numba:compile', counter)
     try:
         yield
