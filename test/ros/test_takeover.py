@@ -10,6 +10,7 @@ from golf_sim_ros.tools.resimulate import main
 from processes import parameters, READY, wait_until
 
 BALLS = [f'b{number}' for number in range(20)]
+SPIN = (0.0, -280.0, 0.0)
 needs_numba = pytest.mark.skipif(bool(missing()), reason=missing() or 'numba is here')
 
 
@@ -21,11 +22,12 @@ def values(messages):
 
 def strike_all(golfers, number):
     """Strike every ball, as never before, and wait for all results."""
-    strikes = [(round(12.0 + 0.01 * number, 2), round(0.1 * i - 1.0, 1), 8.0) for i in range(len(golfers))]
+    strikes = [(round(60.0 + 0.01 * number, 2), round(0.1 * i - 1.0, 1), 14.0) for i in range(len(golfers))]
+    golfers[0].reset()
     for golfer, strike in zip(golfers, strikes):
-        golfer.strike(strike)
+        golfer.strike(strike, SPIN)
     for golfer, strike in zip(golfers, strikes):
-        wait_until(lambda: golfer.results_of(strike), f'the result of {strike} came')
+        wait_until(lambda: golfer.results_of(strike, SPIN), f'the result of {strike} came')
 
 
 @needs_numba
@@ -39,7 +41,7 @@ def test_with_twenty_balls_the_compiled_engine_takes_over_between_shots_and_the_
     recorder = start('tools.record_play', '--output', str(tmp_path / 'bag'), '--namespace', '/crowd')
     recorder.wait_for('recording')
     played = 0
-    while 'takes over' not in sim.output and played < 200:
+    while 'takes over' not in sim.output and played < 30:
         strike_all(golfers, played)
         played += 1
     assert 'a child process compiles the physics' in sim.output, sim.output

@@ -44,7 +44,7 @@ class Part(NamedTuple):
 
 
 class Job(NamedTuple):
-    """What a child of some `niceness` does: import `modules`, which may register effects, then run `parts`."""
+    """What a child of some `niceness` does: import `modules`, which may register effects; run `parts`."""
 
     niceness: int
     modules: tuple
