@@ -11,6 +11,9 @@ from pathlib import Path
 import platform
 import subprocess
 
+from golf_sim_ros.physics.engine import prefer_compiled
+
+import compiling
 import engines
 import node
 import off
@@ -19,11 +22,12 @@ import shots
 import ticks
 
 HISTORY = Path(__file__).parent / 'history.jsonl'
-PARTS = shots, ticks, scale, node, engines, off
+PARTS = compiling, shots, ticks, scale, node, engines, off
 
 
 def main():
     """Time, print, and keep."""
+    prefer_compiled()
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--quick', action='store_true', help='less of it; nothing is kept')
     given = parser.parse_args()

@@ -17,16 +17,17 @@ def main(folder, effects):
     sys.path.insert(0, folder)
     from golf_sim_ros.physics import Course, Material, Plane, Restitution, simulate_many
     from golf_sim_ros.physics.advance import play_all
+    from golf_sim_ros.physics.jit import compiled
     import numpy as np
     turf = Material('turf', Restitution(0.4), 0.0, 0.4, 0.3, 0.1, 0.003, softness=1.0)
     course = Course((Plane(material=turf),))
     strikes = [np.tile(part, (SHOTS, 1)) for part in DRIVE]
     effects = 'auto' if effects == 'auto' else effects.split(',')
-    simulate_many(course, *strikes, effects=effects)
-    print(code(play_all), flush=True)
+    simulate_many(course, *strikes, effects=effects, engine='compiled')
+    print(code(compiled(play_all)), flush=True)
     for _ in sys.stdin:
         began = process_time()
-        simulate_many(course, *strikes, effects=effects)
+        simulate_many(course, *strikes, effects=effects, engine='compiled')
         print(process_time() - began, flush=True)
 
 

@@ -37,6 +37,8 @@ def rows(quick):
     yield from figures('sim_node at 1000 Hz, told at 50 Hz, one ball in flight', seconds, 1, rate=1000.0)
     yield from figures('sim_node at its default rates, one ball in flight', seconds, 1, most=12.0)
     yield from figures('sim_node at its default rates, 100 balls in flight', seconds, 100)
+    yield from figures('sim_node in plain Python, default rates, one ball in flight', seconds, 1, most=25.0,
+                       engine='python')
 
 
 def figures(name, seconds, balls, most=float('inf'), **parameters):
@@ -45,7 +47,7 @@ def figures(name, seconds, balls, most=float('inf'), **parameters):
         course = Path(folder, 'beach.yaml')
         course.write_text(COURSE)
         names = ['ball'] if balls == 1 else [f'ball_{i}' for i in range(balls)]
-        given = {'course': course, 'balls': str(names).replace("'", ''), **parameters}
+        given = {'course': course, 'balls': str(names).replace("'", ''), 'engine': 'compiled', **parameters}
         words = [word for key, value in given.items() for word in ('-p', f'{key}:={value}')]
         environment = {**os.environ, 'ROS_DOMAIN_ID': str(100 + os.getpid() % 100)}
         os.environ['ROS_DOMAIN_ID'] = environment['ROS_DOMAIN_ID']

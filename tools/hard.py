@@ -19,6 +19,7 @@ ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test'), str(ROOT / 'test' / 'physics')]
 from golf_sim_ros.course import load_course  # noqa: E402
 from golf_sim_ros.physics import ACCURACY, Phase  # noqa: E402
+from golf_sim_ros.physics.engine import prefer_compiled  # noqa: E402
 from hard_scenes import SCENES  # noqa: E402
 from nothing_passes import TARGETS  # noqa: E402
 from test_hard_cases import CASES, play, start  # noqa: E402
@@ -156,6 +157,7 @@ def main():
     parser.add_argument('parts', nargs='*', help=f'some of {", ".join(PARTS)}; all, if left out')
     parser.add_argument('--shots', type=int, default=SHOTS)
     given = parser.parse_args()
+    prefer_compiled()
     BUILD.mkdir(parents=True, exist_ok=True)
     for part in given.parts or PARTS:
         (BUILD / f'{part}.md').write_text('\n'.join(PARTS[part](given.shots)) + '\n')

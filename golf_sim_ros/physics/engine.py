@@ -17,7 +17,7 @@ from .orientation import turn
 from .piece import put_down
 
 ENGINES = 'auto', 'python', 'compiled'
-VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate`, `simulate_many`: for tests
+VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate`, `simulate_many`
 WORTH_COMPILING = 10.0  # s that plain Python has taken: compiling takes about half a minute, once a machine
 LOG = logging.getLogger('golf_sim_ros')
 
@@ -59,6 +59,12 @@ def checked_engine(name):
     if name not in ENGINES:
         raise ValueError(f'engine {name!r} is unknown; known: {", ".join(ENGINES)}')
     return name
+
+
+def prefer_compiled():
+    """Let 'auto' be the compiled engine in this process and its children, where there is one: for long work."""
+    if not missing():
+        os.environ.setdefault(VARIABLE, 'compiled')
 
 
 class Program:

@@ -5,6 +5,7 @@ from pathlib import Path
 import sys
 
 from ..needed import how_to_get
+from ..physics.engine import prefer_compiled
 
 LIBRARIES = 'scipy', 'matplotlib', 'tqdm'
 NEEDED = f'accuracy_study needs {", ".join(LIBRARIES)}: {how_to_get("study", *LIBRARIES)}'
@@ -12,6 +13,7 @@ NEEDED = f'accuracy_study needs {", ".join(LIBRARIES)}: {how_to_get("study", *LI
 
 def main(args=None):
     """Run the study; return the exit code."""
+    prefer_compiled()
     parser = argparse.ArgumentParser(prog='accuracy_study', description=__doc__)
     parser.add_argument('--quick', action='store_true',
                         help='four scenes and no effects, a minute or two; the full study takes about ten')
