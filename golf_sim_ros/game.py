@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The game in time: what arrives is applied between ticks, what happens is told."""
-from time import perf_counter, thread_time
+from time import perf_counter, process_time
 
 import numpy as np
 
@@ -53,8 +53,7 @@ class Game:
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
         self.paused = False
-        self.began = perf_counter()  # of the last advance
-        self.spent = 0.0  # s of processor time on physics
+        self.began, self.spent = perf_counter(), process_time()  # when the last advance began
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
         self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
         self.awake = set()  # balls whose pose was still changing when last told
@@ -78,7 +77,8 @@ class Game:
 
     def advance(self):
         """Advance by as many whole ticks as are due; where they are many, tell in between."""
-        passed, self.began = perf_counter() - self.began, perf_counter()
+        passed, spent = perf_counter() - self.began, process_time() - self.spent
+        self.began, self.spent = self.began + passed, self.spent + spent
         if self.paused:
             self.pace.skip()
             return
@@ -86,10 +86,9 @@ class Game:
         if self.pace.hurries and not moving:
             self.pace.skip()
             return
-        spent = self.spent
-        self.advance_by_portions(moving)
         if moving:
-            self.takeover.note(self.spent - spent, passed)
+            self.takeover.note(spent, passed)
+        self.advance_by_portions(moving)
 
     def advance_by_portions(self, moving):
         """Advance by the ticks that are due."""
@@ -108,12 +107,11 @@ class Game:
 
     def tick(self):
         """Advance by one tick and tell what happened in it."""
-        began, spent = perf_counter(), thread_time()
+        began = perf_counter()
         events = self.world.advance(self.pace.tick)
         self.ticks += 1
         self.diagnosis.note_tick(perf_counter() - began)
         self.world.turn(self.turned, self.pace.tick)
-        self.spent += thread_time() - spent
         if events:
             with self.diagnosis.publishing():
                 self.tell_events(events)

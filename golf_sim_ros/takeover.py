@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """When the compiled engine takes over from plain Python: where the play calls for it, between shots."""
 from .physics import EngineUnavailable
-from .physics.jit.build import FAILED, READY
+from .physics.jit.build import FAILED, missing, READY
 
 A_THIRD = 1.0 / 3.0  # of a core, for a play: above that a compiler is worth its while
 LEAST = 2.0  # s of motion before the share means anything
@@ -33,38 +33,49 @@ class Takeover:
         """Why the engine is what it is, one line."""
         if not self.is_open:
             return self._why
-        taken = f'plain Python takes {self.share:.0%} of a core while balls move'
-        return taken if self.build is None else f'{taken}; {self.build.state}, {self.build.progress:.0%} done'
+        taken = f'the play in plain Python takes {self.share:.0%} of a core'
+        if self.build is None or self.build.state in (READY, FAILED):
+            return taken
+        return f'{taken}; {self.build.state}, {self.build.progress:.0%} done'
 
     @property
     def share(self):
-        """Share of a core that plain Python takes while balls move, 0 before that is known."""
+        """Share of a core that this process takes while balls move, 0 before that is known."""
         return self.spent / self.passed if self.passed > LEAST else 0.0
 
     def note(self, spent, passed):
-        """Note `spent` [s] of processor time in `passed` [s] of the clock, in which balls moved."""
+        """Note that this process `spent` so much processor time [s] in `passed` [s], while balls moved."""
         if not self.is_open:
             return
         if self.passed > MOST:
             self.spent, self.passed = 0.5 * self.spent, 0.5 * self.passed
         self.spent, self.passed = self.spent + spent, self.passed + passed
         if self.build is None and self.share > A_THIRD:
-            self.build = self.world.build()
-            self.log.info(f'plain Python takes {self.share:.0%} of a core: a child process compiles the '
-                          'physics, and the play goes on meanwhile')
+            self.call_for_compiler()
+
+    def call_for_compiler(self):
+        """Let the compiled engine be built meanwhile; where there is none, say what to install."""
+        if missing():
+            self.stay(missing())
+            return
+        self.build = self.world.build()
+        self.log.info(f'{self.why}: a child process compiles the physics, and the play goes on')
+
+    def stay(self, reason):
+        """Go on in plain Python for good."""
+        self.log.warning(f'{self.why}, and goes on so: {reason}')
+        self.is_open, self._why = False, reason
 
     def between_shots(self):
         """Take over if the compiled engine is ready; to be called while every ball rests."""
         if not self.is_open or self.build is None or not self.build.wait(0.0):
             return
-        self.is_open = False
-        if self.build.state == READY:
-            self.world.engine = 'compiled'
-            self._why = f'plain Python took {self.share:.0%} of a core'
-            self.log.info(f'the compiled engine takes over: {self._why}')
-        else:
-            self._why = self.build.reason
-            self.log.warning(f'the play stays in plain Python: {self._why}')
+        if self.build.state == FAILED:
+            self.stay(self.build.reason)
+            return
+        self.world.engine, self.is_open = 'compiled', False
+        self._why = f'the play in plain Python took {self.share:.0%} of a core'
+        self.log.info(f'the compiled engine takes over: {self._why}')
 
     def values(self):
         """What a person reads about it, a dict."""

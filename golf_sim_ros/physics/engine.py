@@ -62,7 +62,7 @@ def checked_engine(name):
 
 
 def prefer_compiled():
-    """Let 'auto' be the compiled engine in this process and its children, where there is one: for long work."""
+    """Let 'auto' be the compiled engine in this process and its children, where there is one."""
     if not missing():
         os.environ.setdefault(VARIABLE, 'compiled')
 
