@@ -28,6 +28,7 @@ sim: environment
 	@$(VENV)/bin/python tools/sim.py
 
 test: environment
+	@$(VENV)/bin/compile_physics || true
 	@$(VENV)/bin/python -m pytest -n 2 --dist loadfile $(PYTEST_ARGS)
 
 hard: environment

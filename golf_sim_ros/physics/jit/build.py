@@ -4,6 +4,8 @@
 As a program, ``python -m golf_sim_ros.physics.jit.build`` reads a pickled `Job` and runs it, so that what it
 needs is compiled and in the cache afterwards. Lines of its output tell how far it is.
 """
+from contextlib import contextmanager
+import fcntl
 import hashlib
 from importlib import import_module, metadata
 import importlib.util
@@ -22,7 +24,7 @@ from . import GENERICS, Unavailable, cache
 COMPILING, LOADING, READY, FAILED = 'compiling', 'loading', 'ready', 'failed'
 ORDINARY = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
 PROGRAM = 'golf_sim_ros.physics.jit.build'
-LOWEST = 19  # niceness of a child for which nobody waits
+LOW = 10  # niceness of a child for which nobody waits: a tenth of what others get, but never nothing
 INSTALL = "pip install numba, in a virtual environment made with 'python3 -m venv --system-site-packages'"
 
 
@@ -54,7 +56,7 @@ class Job(NamedTuple):
 class Build:
     """Compiled code on its way: a child compiles what `parts` need, then this process loads it.
 
-    It begins at once, in a thread; the child has the lowest priority, unless it is `urgent`: somebody waits.
+    It begins at once, in a thread; the child has a low priority, unless it is `urgent`: somebody waits.
     `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the share of the compilation that is
     done, `reason` one line that says why it failed.
     """
@@ -62,7 +64,7 @@ class Build:
     def __init__(self, urgent, *parts):
         self.state, self.progress, self.reason = COMPILING, 0.0, ''
         self.ended, self.child = Event(), None
-        self.job = Job(0 if urgent else LOWEST, foreign_modules(), parts)
+        self.job = Job(0 if urgent else LOW, foreign_modules(), parts)
         Thread(target=self._run, name='build of the physics', daemon=True).start()
 
     def wait(self, seconds=None):
@@ -180,11 +182,20 @@ def main():
     for module in job.modules:
         import_module(module)
     from .progress import telling_progress
-    with telling_progress(sys.stdout, len(job.parts)):
+    with telling_progress(sys.stdout, len(job.parts)), alone():
         for part in job.parts:
-            run([part])
-            mark(part.key).touch()
+            if not is_kept(part.key):  # by another child, for which this one has waited
+                run([part])
+                mark(part.key).touch()
     return 0
+
+
+@contextmanager
+def alone():
+    """No other child compiles on this machine as long as this lasts: it may be the same that both need."""
+    with open(cache.folder().path / 'lock', 'w') as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        yield
 
 
 def run(parts):
