@@ -5,7 +5,6 @@ As a program, ``python -m golf_sim_ros.physics.jit.build`` reads a pickled `Job`
 needs is compiled and in the cache afterwards. Lines of its output tell how far it is.
 """
 from contextlib import contextmanager
-import fcntl
 import hashlib
 from importlib import import_module, metadata
 import importlib.util
@@ -193,6 +192,7 @@ def main():
 @contextmanager
 def alone():
     """No other child compiles on this machine as long as this lasts: it may be the same that both need."""
+    import fcntl
     with open(cache.folder().path / 'lock', 'w') as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
