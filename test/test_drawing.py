@@ -140,6 +140,14 @@ def test_the_ground_under_the_side_view_is_the_courses(drive):
         assert (z, drawing.relief.model.material_names(COURSE)[number]) == ground_height(COURSE, x, 3.0)
 
 
+def test_a_grid_is_the_same_material_by_material_though_it_is_looked_at_here_and_there():
+    x, y = np.arange(150.0, 260.0, 0.5), np.arange(-30.0, 30.0, 0.5)
+    told = drawing.relief.relief(COURSE, x, y[:, np.newaxis])
+    heights, numbers = drawing.relief.grid_relief(COURSE, x, y)
+    assert len(set(numbers.flat)) > 3 and (numbers == told[1]).all()
+    np.testing.assert_allclose(heights, told[0], rtol=0, atol=0.05)
+
+
 def test_where_there_is_no_ground_none_is_drawn():
     course = Course((Patch((0.0, 0.0, 0.0), length=2.0, width=2.0, material=Material('mat')),))
     heights, numbers = drawing.relief.relief(course, [0.0, 5.0], [0.0, 0.0])

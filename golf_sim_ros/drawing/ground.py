@@ -4,7 +4,7 @@ import numpy as np
 
 from ..painted import holds
 from ..physics.model import materials
-from .relief import relief
+from .relief import grid_relief, relief
 
 LIGHT = 2.5     # how much brighter a slope of 1 is that rises towards the right and up
 SHADE = 0.22    # at most so much brighter or darker
@@ -31,7 +31,7 @@ def paint(axes, course, window, pixels):
     side = window.width / pixels
     x = np.arange(window.left, window.right, side) + 0.5 * side
     y = np.arange(window.low, window.high, side) + 0.5 * side
-    heights, numbers = relief(course, x, y[:, np.newaxis])
+    heights, numbers = grid_relief(course, x, y)
     colors = flooded(tints(course, numbers) * lit(heights, side), course, heights, x, y)
     axes.imshow(np.clip(colors, 0.0, 1.0), origin='lower',
                 extent=(window.left, window.right, window.low, window.high), aspect='auto',

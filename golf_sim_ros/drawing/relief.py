@@ -6,6 +6,8 @@ from ..physics import model
 from ..physics.jit import borrowed, entry
 from ..physics.ground import surface
 
+COARSE = 4  # places of a grid to one that is always looked at
+
 
 @entry
 def look_down(ground, xs, ys, heights, numbers):
@@ -38,3 +40,45 @@ def relief(course, x, y):
     look_down(model.bare_ground(course), x.flatten(), y.flatten(), heights, numbers)
     heights[numbers < 0] = np.nan
     return heights.reshape(x.shape), numbers.reshape(x.shape)
+
+
+def grid_relief(course, x, y):
+    """`relief` at the places of a grid, looked at closely only where the material changes.
+
+    Elsewhere heights are interpolated between every fourth place: what is smaller than that, and far from any
+    edge, is not seen. In plain Python a picture takes 2 s so, a whole grid 20.
+
+    Parameters
+    ----------
+    course : Course
+    x, y : ndarray
+        Rising, (nx,) and (ny,), places along both axes [m].
+
+    Returns
+    -------
+    heights, numbers : ndarray, (ny, nx)
+        See `relief`.
+    """
+    columns, rows = coarse(len(x)), coarse(len(y))
+    heights, numbers = relief(course, x[columns], y[rows][:, np.newaxis])
+    near = np.searchsorted(rows, np.arange(len(y)), 'right') - 1, np.searchsorted(
+        columns, np.arange(len(x)), 'right') - 1
+    edges = near_edges(numbers)[np.ix_(*near)]
+    along = np.array([np.interp(x, x[columns], row) for row in heights])
+    fine = np.array([np.interp(y, y[rows], column) for column in along.T]).T
+    kinds = numbers[np.ix_(*near)]
+    i, j = np.nonzero(edges)
+    fine[i, j], kinds[i, j] = relief(course, x[j], y[i])
+    return fine, kinds
+
+
+def coarse(count):
+    """Every fourth of so many places, and the last."""
+    return np.unique([*range(0, count, COARSE), count - 1])
+
+
+def near_edges(numbers):
+    """Whether a block of the grid, or one beside it, has different `numbers` at its corners; by its first corner."""
+    padded = np.pad(numbers, 2, mode='edge')
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (4, 4))[:-1, :-1]
+    return windows.min((2, 3)) != windows.max((2, 3))
