@@ -92,7 +92,7 @@ def test_what_a_module_imports_is_known_here(path):
 
 @pytest.mark.parametrize('path', LAUNCH, ids=name)
 def test_a_launch_file_imports_what_ros_brings(path):
-    assert {module for module, _ in imports(path)} <= {*LAUNCHING, *ROS}
+    assert {module for module, _ in imports(path)} <= {*LAUNCHING, *ROS, 'yaml'}
 
 
 def test_what_is_imported_is_in_the_manifest_and_nothing_else():

@@ -78,7 +78,7 @@ def coarse(count):
 
 
 def near_edges(numbers):
-    """Whether a block of the grid, or one beside it, has different `numbers` at its corners; by its first corner."""
+    """Whether a block of the grid, or one beside it, has several `numbers` at its corners."""
     padded = np.pad(numbers, 2, mode='edge')
     windows = np.lib.stride_tricks.sliding_window_view(padded, (4, 4))[:-1, :-1]
     return windows.min((2, 3)) != windows.max((2, 3))
