@@ -11,8 +11,10 @@ from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
 from .height_file import heights_in
+from .input_file import beside, content
 from .materials import materials, shipped
 from .mesh_file import outward, read_mesh
+from .misplaced import meshes_reach, misplaced
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
@@ -28,6 +30,7 @@ from .yaml_file import read_yaml
 __all__ = ['CourseError', 'load_course', 'shipped_courses']
 
 FORMAT = 1
+UP = {'y': 'y', 'z': 'z'}  # axes of a mesh file
 
 PROFILES = {
     'log': record(LogProfile, {'roughness': number(1e-6, 10)}),
@@ -70,7 +73,7 @@ def load_course(name_or_path):
         raise CourseError(f'{path}: {error}') from None
     return course._replace(name=course.name or path.stem, path=str(path),
                            digest=digest(raw, sources, opened),
-                           notes=tuple(note for file in opened.values() for note in file.notes))
+                           notes=(*(note for file in opened.values() for note in file.notes), *course.notes))
 
 
 def shipped_courses():
@@ -95,8 +98,9 @@ def digest(raw, sources, opened):
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())
-    for name in sorted(opened):
-        total.update(name.encode() + b'\0' + opened[name].digest)
+    meshes = {name: file.digest for (name, _, _), file in opened.items()}
+    for name in sorted(meshes):
+        total.update(name.encode() + b'\0' + meshes[name])
     return total.hexdigest()
 
 
@@ -120,26 +124,27 @@ def course_of(content, base, folder, sources, opened):
     found = read(content, '')
     course = Course(cup=known['cup'], stick=known['flagstick'],
                     **{name: value for name, value in found.items() if name in Course._fields})
+    files = [entry.get('file') for entry in content['ground']]
     for key in ('tee', 'hole'):
-        on_ground(course, key)
+        on_ground(course, key, files)
     if course.hole is not None:
-        even_around_hole(course)
-    return course
+        even_around_hole(course, files)
+    return course._replace(notes=tuple(misplaced(course, files)))
 
 
-def on_ground(course, key):
-    """Refuse a course with a tee or hole that has no ground under it."""
+def on_ground(course, key, files):
+    """Refuse a course with a tee or hole that has no ground under it; `files`: those of its shapes."""
     place = getattr(course, key)
     if place is not None and physics.ground_height(course, *place) is None:
-        raise refused(key, list(place), 'above some ground, and there is none')
+        raise refused(key, list(place), f'above some ground, and there is none{meshes_reach(course, files)}')
 
 
-def even_around_hole(course):
+def even_around_hole(course, files):
     """Refuse a course whose hole has no ground all round, or ground that is too uneven."""
     try:
         physics.check_hole(course)
     except ValueError as error:
-        raise CourseError(str(error)) from None
+        raise CourseError(f'{error}{meshes_reach(course, files)}') from None
 
 
 def format_number(value, key):
@@ -160,25 +165,34 @@ class MeshFile(NamedTuple):
 
 def mesh_of(known, folder, opened):
     """Checker of a mesh; see `course_of`."""
-    read = fields({'file': text, 'material': one_of(known), 'one_sided': flag}, ('file', 'material'))
+    read = fields({'file': text, 'material': one_of(known), 'one_sided': flag, 'up': one_of(UP),
+                   'scale': number(1e-6, 1e6)}, ('file', 'material'))
 
     def check(value, key):
         entry = read(value, key)
         name, one_sided = entry['file'], entry.get('one_sided', False)
-        path = folder / Path(name).expanduser()
+        use = name, entry.get('up'), entry.get('scale', 1.0)
         try:
-            if name not in opened:
-                vertices, faces, notes = read_mesh(path)
-                opened[name] = MeshFile(vertices, faces, tuple(notes), sha256(path.read_bytes()).digest())
+            if use not in opened:
+                opened[use] = opened_mesh(beside(folder, name), *use[1:])
         except CourseError as error:
             raise CourseError(f'{key}.file {error}') from None
-        file = opened[name]
+        file = opened[use]
         faces = file.faces
         if one_sided:
-            faces, notes = outward(file.vertices, faces, path.name)
-            opened[name] = file._replace(notes=tuple(dict.fromkeys((*file.notes, *notes))))
+            faces, notes = outward(file.vertices, faces, Path(name).name)
+            opened[use] = file._replace(notes=tuple(dict.fromkeys((*file.notes, *notes))))
         return Mesh(file.vertices, faces, entry['material'], one_sided)
     return check
+
+
+def opened_mesh(path, up, scale):
+    """`MeshFile` of what is at `path`; a .gltf file is but the beginning of its mesh, so that counts too."""
+    vertices, faces, notes = read_mesh(path, up, scale)
+    digest = sha256(content(path))
+    if path.suffix.lower() == '.gltf':
+        digest.update(vertices.tobytes() + faces.tobytes())
+    return MeshFile(vertices, faces, tuple(notes), digest.digest())
 
 
 def shape_of(known, heights, mesh):

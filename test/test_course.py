@@ -318,7 +318,7 @@ def test_a_wrong_material_is_named(complaint, section, said):
      "ground[0].shape 'plan' is unknown; known: heightmap, mesh, patch, plane; did you mean 'plane'?"),
     ('{shape: mesh, material: rough}', "ground[0]: key 'file' is missing; needed: file, material"),
     ('{shape: mesh, file: a.stl, material: rough}', 'a.stl: cannot be read: No such file or directory'),
-    ('{shape: mesh, file: links.yaml, material: rough}', 'is no mesh; known: .glb, .obj, .ply, .stl'),
+    ('{shape: mesh, file: links.yaml, material: rough}', 'is no mesh; known: .glb, .gltf, .obj, .ply, .stl'),
     ('{shape: plane, material: gras}', f"material 'gras' is unknown; known: {KNOWN}"),
     ('{shape: plane, material: 1}', 'ground[0].material 1 is unknown'),
     ('{shape: plane}', "ground[0]: key 'material' is missing; needed: material"),
