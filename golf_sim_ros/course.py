@@ -10,15 +10,14 @@ import numpy as np
 from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
-from .height_file import heights_in
+from .height_file import heightmap_of
 from .input_file import beside, content
 from .materials import materials, shipped
 from .mesh_file import outward, read_mesh
-from .misplaced import meshes_reach, misplaced
+from .misplaced import files_reach, misplaced
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
-from .physics.ground.heightmap import Heightmap
 from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
@@ -111,7 +110,8 @@ def course_of(content, base, folder, sources, opened):
     meshes into `opened`, by the names that the file gives them.
     """
     known = materials(mapping(content, '').get('materials', {}), base)
-    shape = shape_of(known, heights_in(folder, sources), mesh_of(known, folder, opened))
+    notes = []
+    shape = shape_of(known, heightmap_of(known, folder, sources, notes), mesh_of(known, folder, opened))
     read = fields({
         'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
         'bounds': polygon, 'air': air, 'wind_profile': tagged('law', PROFILES), 'effects': effects,
@@ -124,19 +124,19 @@ def course_of(content, base, folder, sources, opened):
     found = read(content, '')
     course = Course(cup=known['cup'], stick=known['flagstick'],
                     **{name: value for name, value in found.items() if name in Course._fields})
-    files = [entry.get('file') for entry in content['ground']]
+    files = [entry.get('file', entry.get('heights')) for entry in content['ground']]
     for key in ('tee', 'hole'):
         on_ground(course, key, files)
     if course.hole is not None:
         even_around_hole(course, files)
-    return course._replace(notes=tuple(misplaced(course, files)))
+    return course._replace(notes=(*notes, *misplaced(course, files)))
 
 
 def on_ground(course, key, files):
     """Refuse a course with a tee or hole that has no ground under it; `files`: those of its shapes."""
     place = getattr(course, key)
     if place is not None and physics.ground_height(course, *place) is None:
-        raise refused(key, list(place), f'above some ground, and there is none{meshes_reach(course, files)}')
+        raise refused(key, list(place), f'above some ground, and there is none{files_reach(course, files)}')
 
 
 def even_around_hole(course, files):
@@ -144,7 +144,7 @@ def even_around_hole(course, files):
     try:
         physics.check_hole(course)
     except ValueError as error:
-        raise CourseError(f'{error}{meshes_reach(course, files)}') from None
+        raise CourseError(f'{error}{files_reach(course, files)}') from None
 
 
 def format_number(value, key):
@@ -176,7 +176,8 @@ def mesh_of(known, folder, opened):
             if use not in opened:
                 opened[use] = opened_mesh(beside(folder, name), *use[1:])
         except CourseError as error:
-            raise CourseError(f'{key}.file {error}') from None
+            reason = str(error).removeprefix(f'{folder / name}: ')
+            raise CourseError(f'{key}.file {name}: {reason}') from None
         file = opened[use]
         faces = file.faces
         if one_sided:
@@ -195,8 +196,8 @@ def opened_mesh(path, up, scale):
     return MeshFile(vertices, faces, tuple(notes), digest.digest())
 
 
-def shape_of(known, heights, mesh):
-    """Checker of an entry of ``ground``; `known`: materials by name; `heights`, `mesh` read files."""
+def shape_of(known, heightmap, mesh):
+    """Checker of an entry of ``ground``; `known`: materials by name; `heightmap`, `mesh` read files."""
     cuts = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
     common = {'normal': direction, 'material': one_of(known), 'cut': cuts}
     size = number(1e-3)
@@ -205,9 +206,7 @@ def shape_of(known, heights, mesh):
         'patch': record(Patch, {**common, 'center': vector(3), 'heading': number(), 'length': size,
                                 'width': size, 'one_sided': flag},
                         ('center', 'length', 'width', 'material')),
-        'heightmap': record(Heightmap, {'heights': heights, 'origin': vector(2), 'spacing': size,
-                                        'material': one_of(known)},
-                            ('heights', 'spacing', 'material')),
+        'heightmap': heightmap,
         'mesh': mesh,
     }
 

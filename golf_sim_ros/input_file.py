@@ -41,6 +41,8 @@ def content(path):
         if isinstance(error, CourseError):
             raise
         raise CourseError(f'cannot be read: {getattr(error, "strerror", None) or error}') from None
+    if not raw:
+        raise CourseError('is empty')
     if raw.startswith(LFS):
         raise CourseError('is a Git LFS pointer, not the file itself: `git lfs pull` fetches that')
     return raw

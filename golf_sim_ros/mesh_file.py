@@ -13,7 +13,7 @@ from .physics.ground.mesh import NARROW, widths
 from .ply_file import ply
 from .stl_file import stl
 
-HINT = "needs trimesh: pip install 'golf_sim_ros[mesh]'"
+HINT = "needs trimesh: pip install 'golf_sim_ros[mesh]', or apt install python3-trimesh"
 TALL = 3.0  # times as high as it is wide: a wall, or ground that lies on its side
 
 
@@ -48,8 +48,6 @@ def read_mesh(path, up=None, scale=1.0):
         if suffix not in READERS:
             raise CourseError(f'is no mesh; known: {", ".join(sorted(READERS))}')
         raw = content(path)
-        if not raw:
-            raise CourseError('is empty')
         with np.errstate(all='ignore'):  # whatever is not finite is refused
             vertices, faces, told = READERS[suffix](raw, path)
             vertices, told = upright(vertices, told, suffix, up)

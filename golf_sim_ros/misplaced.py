@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .physics.ground.heightmap import Heightmap, corners as map_corners
 from .physics.ground.mesh import Mesh
 
 SMALL = 10.0  # m: smaller ones are bunkers and the like, which nobody tees up on
@@ -43,6 +44,11 @@ def reach(mesh):
                      for axis, low, high in zip('xyz', corners.min(0), corners.max(0)))
 
 
+def reach_of_map(shape):
+    """The same of a height map."""
+    return ', '.join(f'{axis} {low:g} to {high:g}' for axis, low, high in zip('xy', *map_corners(shape)))
+
+
 def is_under(mesh, place):
     """Whether some triangle of a mesh lies under or over a place in plan."""
     corners = mesh.vertices[mesh.faces][:, :, :2] - place
@@ -53,10 +59,8 @@ def is_under(mesh, place):
     return bool((((turns >= 0.0).all(1) | (turns <= 0.0).all(1)) & ~upright).any())
 
 
-def meshes_reach(course, files):
-    """Where the meshes of a course are, to be told of a tee or hole without ground; '' without any."""
-    told = [
-        f'{Path(file).name} reaches {reach(shape)}' for shape, file in zip(course.ground, files)
-        if isinstance(shape, Mesh)
-    ]
+def files_reach(course, files):
+    """Where meshes and height maps of a course are, where tee or hole has no ground; '' without any."""
+    told = [f'{Path(file).name} reaches {reach(shape) if isinstance(shape, Mesh) else reach_of_map(shape)}'
+            for shape, file in zip(course.ground, files) if isinstance(shape, (Mesh, Heightmap))]
     return f'; {"; ".join(told[:3])}' if told else ''
