@@ -11,7 +11,7 @@ from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
 from .height_file import heightmap_of
-from .input_file import beside, content
+from .input_file import beside, content as bytes_of
 from .materials import materials, shipped
 from .mesh_file import outward, read_mesh
 from .misplaced import files_reach, misplaced
@@ -24,7 +24,7 @@ from .physics.ground.plane import Plane
 from .physics.ground.solid import Cylinder, Sphere
 from .physics.ground.water import Water
 from .share import share
-from .yaml_file import read_yaml
+from .yaml_file import read_yaml, uncollected
 
 __all__ = ['CourseError', 'load_course', 'shipped_courses']
 
@@ -63,11 +63,13 @@ def load_course(name_or_path):
         One line: file, key, value and what is allowed.
     """
     path = course_file(name_or_path)
-    raw, content = read_yaml(path)
+    with uncollected():
+        raw, content = read_yaml(path)
     base, sources = shipped()
     opened = {}
     try:
-        course = course_of(content, base, path.parent, sources, opened)
+        with uncollected(), np.errstate(all='ignore'):  # whatever is not finite is refused
+            course = course_of(content, base, path.parent, sources, opened)
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
     return course._replace(name=course.name or path.stem, path=str(path),
@@ -86,7 +88,10 @@ def course_file(name_or_path):
     if name_or_path in known:
         return known[name_or_path]
     name = os.fspath(name_or_path)
-    path = Path(name).expanduser()
+    try:
+        path = beside(Path(), name)
+    except CourseError as error:
+        raise CourseError(f'{name}: {error}') from None
     if path.suffix not in ('.yaml', '.yml') and not path.is_file():
         raise CourseError(f'{unknown("course", name, known)}; or give the path of a course file (.yaml)')
     return path
@@ -190,7 +195,7 @@ def mesh_of(known, folder, opened):
 def opened_mesh(path, up, scale):
     """`MeshFile` of what is at `path`; a .gltf file is but the beginning of its mesh, so that counts too."""
     vertices, faces, notes = read_mesh(path, up, scale)
-    digest = sha256(content(path))
+    digest = sha256(bytes_of(path))
     if path.suffix.lower() == '.gltf':
         digest.update(vertices.tobytes() + faces.tobytes())
     return MeshFile(vertices, faces, tuple(notes), digest.digest())

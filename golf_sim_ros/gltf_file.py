@@ -29,7 +29,7 @@ class Neighbours:
         try:
             return content(beside(self.folder, unquote(name)))
         except CourseError as error:
-            raise CourseError(f'{name} {error}') from None
+            raise CourseError(f'{name}: {error}') from None
 
     __getitem__ = get
 

@@ -18,7 +18,7 @@ def beside(folder, name):
     try:
         return folder / Path(name).expanduser()
     except RuntimeError as error:  # there is no such user
-        raise CourseError(f'{name}: cannot be read: {error}') from None
+        raise CourseError(f'cannot be read: {error}') from None
 
 
 def content(path):
