@@ -7,17 +7,16 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from .bag_file import BagError, raw_messages
 from .journal import JournalError, opened
+
+__all__ = ['BagError', 'read_bag', 'Recording', 'Strike', 'Track']
 
 TEXT, POSE, TWIST, STRIKE, WIND = (
     'std_msgs/msg/String', 'geometry_msgs/msg/PoseStamped', 'geometry_msgs/msg/TwistStamped',
     'geometry_msgs/msg/Twist', 'geometry_msgs/msg/Vector3Stamped')
 OF_SIM = {'journal': TEXT, 'shot/result': TEXT, 'collisions': TEXT, 'shot': STRIKE, 'wind': WIND}
 OF_BALL = {'pose': POSE, 'twist': TWIST, 'shot': STRIKE}
-
-
-class BagError(ValueError):
-    """A bag that cannot be used; one line says why."""
 
 
 class Track(NamedTuple):
@@ -91,7 +90,7 @@ def read_bag(path):
     Parameters
     ----------
     path : str or path
-        Folder of a rosbag2 bag.
+        Folder of a rosbag2 bag, or one of its files, .mcap or .db3.
 
     Returns
     -------
@@ -103,16 +102,20 @@ def read_bag(path):
     BagError
         The bag is damaged, or holds no play.
     """
-    told = messages(Path(path))
+    try:
+        told = raw_messages(Path(path))
+    except (BagError, OSError, MemoryError) as error:
+        raise BagError(f'{path}: {error}') from None
     sims = {topic.removesuffix(f'/{end}') for topic, kind in {message[1:3] for message in told}
             for end in ('journal', 'shot/result') if topic.endswith(f'/{end}') and kind == TEXT}
     if not sims:
         raise BagError(f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`')
-    plays = {}
-    for received, topic, kind, message in told:
+    plays, decode = {}, decoder(path)
+    for received, topic, kind, raw in told:
         place = sorted_out(topic, kind, sims)
         if place:
             namespace, ball, name = place
+            message = decode(topic, kind, raw)
             parts = plays.setdefault(namespace, [defaultdict(list)])
             parts = begun(parts, name, message, path)
             parts[ball, name].append((received, message))
@@ -120,28 +123,21 @@ def read_bag(path):
                  for namespace, starts in plays.items() for parts in starts)
 
 
-def messages(path):
-    """All that may be of a play: time received [ns], topic, type, message."""
+def decoder(path):
+    """Function that makes a message of a topic, a type and bytes."""
     try:
-        from rosbags.highlevel import AnyReader
         from rosbags.typesys import Stores, get_typestore
     except ImportError:
         raise BagError('reading a bag needs the library rosbags: pip install rosbags') from None
-    if not path.exists():
-        raise BagError(f'{path}: there is no such bag')
-    kinds = {*OF_SIM.values(), *OF_BALL.values()}
-    try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
-            wanted = [connection for connection in reader.connections if connection.msgtype in kinds]
-            found = [(time, connection.topic, connection.msgtype, reader.deserialize(raw, connection.msgtype))
-                     for connection, time, raw in (reader.messages(wanted) if wanted else ())]
-            whole = sum(connection.msgcount for connection in wanted)
-    except Exception as error:  # damage makes the library, and those below it, raise almost anything
-        reason = ' '.join(str(error).split()) or type(error).__name__
-        raise BagError(f'{path}: cannot be read as a rosbag2 bag: {reason}') from None
-    if len(found) != whole:
-        raise BagError(f'{path}: is damaged: {len(found)} of {whole} messages are left')
-    return found
+    types = get_typestore(Stores.ROS2_JAZZY)
+
+    def decode(topic, kind, raw):
+        try:
+            return types.deserialize_cdr(raw, kind)
+        except Exception as error:  # damage makes the library raise almost anything
+            reason = ' '.join(str(error).split()) or type(error).__name__
+            raise BagError(f'{path}: is damaged: a message of {topic} cannot be read: {reason}') from None
+    return decode
 
 
 def sorted_out(topic, kind, sims):

@@ -467,8 +467,8 @@ def test_a_message_is_cut_in_its_middle_and_ends_with_what_is_allowed(write, tmp
     ('shape: mesh, file: a.stl', b'\0' * 80 + b'\1\0\0\0' + b'\xff\x7f\xa1\x7f' * 13),
     ('shape: mesh, file: a.obj', b'v 1e300 1e300 0\nv -1e300 1e308 0\nv 1e308 0 0\nv 0 1 1\nf 1 2 3 4\n'),
     ('shape: mesh, file: a.ply', b'ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nend_header\n'),
-    ('shape: heightmap, spacing: 1, heights: a.npy', b'\x93NUMPY\1\0F\0' + b"{'descr': '<f8', 'fortran_order': "
-     b"False, 'shape': (2L, 2L), }".ljust(69) + b'\n' + b'\xff' * 32)])
+    ('shape: heightmap, spacing: 1, heights: a.npy', b'\x93NUMPY\1\0F\0'
+     + b"{'descr': '<f8', 'fortran_order': False, 'shape': (2L, 2L), }".ljust(69) + b'\n' + b'\xff' * 32)])
 def test_numpy_warns_of_nothing_beside_a_refusal(complaint, tmp_path, entry, raw):
     (tmp_path / entry.rpartition(' ')[2]).write_bytes(raw)
     assert complaint(f'format: 1\nground: [{{material: rough, {entry}}}]\n')

@@ -4,9 +4,12 @@ import argparse
 from pathlib import Path
 import sys
 
+from .pipes import in_pipes
+
 NEEDED = 'accuracy_study needs scipy, matplotlib and tqdm: pip install "golf_sim_ros[study]"'
 
 
+@in_pipes
 def main(args=None):
     """Run the study; return the exit code."""
     parser = argparse.ArgumentParser(prog='accuracy_study', description=__doc__)

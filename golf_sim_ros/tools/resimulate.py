@@ -9,11 +9,13 @@ from ..bag import BagError, read_bag
 from ..journal import made_with
 from ..physics import ACCURACY
 from ..replay import difference, rerun, shots, tick_of, timed, world_of
+from .pipes import in_pipes
 
 EPILOG = """The exit code is 0 when every shot is the same to the bit, 1 when one is not or the bag cannot
 be used, 2 for wrong arguments."""
 
 
+@in_pipes
 def main(args=None):
     """Run a bag's play again; return the exit code."""
     options = parser().parse_args(args)
@@ -32,7 +34,7 @@ def main(args=None):
 def parser():
     """Reader of the command line."""
     reader = argparse.ArgumentParser(prog='resimulate', description=__doc__, epilog=EPILOG)
-    reader.add_argument('bag', help='folder of a rosbag2 bag, MCAP or sqlite3')
+    reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
     reader.add_argument('--accuracy', choices=list(ACCURACY), help='also play every shot at this accuracy')
     reader.add_argument('--course', help='name or path of the course, if it is not where it was')
     return reader
