@@ -23,14 +23,25 @@ from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
 from .physics.ground.solid import Cylinder, Sphere
 from .physics.ground.water import Water
+from .physics.ground.zone import Zone
 from .share import share
 from .yaml_file import read_yaml, uncollected
 
-__all__ = ['CourseError', 'load_course', 'shipped_courses']
+__all__ = ['CourseError', 'load_course', 'load_round', 'shipped_courses']
 
 FORMAT = 1
 UP = {'y': 'y', 'z': 'z'}  # axes of a mesh file
 
+
+def format_number(value, key):
+    """The number of the schema."""
+    if type(value) is not int or value != FORMAT:
+        raise refused(key, value, f'{FORMAT}')
+    return value
+
+
+ROUND = fields({'format': format_number, 'name': text,
+                'round': list_of(text, 'a list of one or more course files', 1, 100)}, ('format', 'round'))
 PROFILES = {
     'log': record(LogProfile, {'roughness': number(1e-6, 10)}),
     'power': record(PowerProfile, {'exponent': number(0, 2)}),
@@ -42,7 +53,8 @@ ALTITUDE = fields({'altitude': number(-1000, 11000)})
 BALL = record(Ball, {'mass': number(1e-6, 1000), 'radius': number(1e-3, 1), 'inertia': number(0.01, 1),
                      'restitution': number(0, 1), 'friction': number(0)})
 
-WATER = record(Water, {'polygon': polygon, 'level': number()}, ('polygon', 'level'))
+CUTS = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
+WATER = record(Water, {'polygon': polygon, 'level': number(), 'cut': CUTS}, ('polygon', 'level'))
 
 
 def load_course(name_or_path):
@@ -62,9 +74,10 @@ def load_course(name_or_path):
     CourseError
         One line: file, key, value and what is allowed.
     """
-    path = course_file(name_or_path)
-    with uncollected():
-        raw, content = read_yaml(path)
+    path, raw, content = opened_course(name_or_path)
+    names = round_of(path, content)
+    if names is not None:
+        raise CourseError(f'{path}: is a round of {len(names)} courses: give one of them: {", ".join(names)}')
     base, sources = shipped()
     opened = {}
     try:
@@ -75,6 +88,52 @@ def load_course(name_or_path):
     return course._replace(name=course.name or path.stem, path=str(path),
                            digest=digest(raw, sources, opened),
                            notes=(*(note for file in opened.values() for note in file.notes), *course.notes))
+
+
+def load_round(name_or_path):
+    """The courses of a round, in the order of play.
+
+    Parameters
+    ----------
+    name_or_path : str or path
+        Path of a file that names several, ``round: [first.yaml, second.yaml]``, from its own folder on or
+        as shipped ones; or what `load_course` takes, which is a round of one.
+
+    Returns
+    -------
+    tuple of golf_sim_ros.physics.course.Course
+
+    Raises
+    ------
+    CourseError
+        One line, as of `load_course`.
+    """
+    path, _, content = opened_course(name_or_path)
+    names = round_of(path, content)
+    if names is None:
+        return load_course(name_or_path),
+    try:
+        known = shipped_courses()
+        return tuple(load_course(name if name in known else beside(path.parent, name)) for name in names)
+    except CourseError as error:
+        raise CourseError(f'{path}: round: {error}') from None
+
+
+def opened_course(name_or_path):
+    """Path, bytes and content of a course file."""
+    path = course_file(name_or_path)
+    with uncollected():
+        return path, *read_yaml(path)
+
+
+def round_of(path, content):
+    """Names of the courses that a file with the key ``round`` names; None where it is a course."""
+    if not isinstance(content, dict) or 'round' not in content:
+        return None
+    try:
+        return ROUND(content, '')['round']
+    except CourseError as error:
+        raise CourseError(f'{path}: {error}') from None
 
 
 def shipped_courses():
@@ -152,13 +211,6 @@ def even_around_hole(course, files):
         raise CourseError(f'{error}{files_reach(course, files)}') from None
 
 
-def format_number(value, key):
-    """The number of the schema."""
-    if type(value) is not int or value != FORMAT:
-        raise refused(key, value, f'{FORMAT}')
-    return value
-
-
 class MeshFile(NamedTuple):
     """A mesh file as read: triangles, what was put right in it, SHA-256 of its bytes."""
 
@@ -203,8 +255,7 @@ def opened_mesh(path, up, scale):
 
 def shape_of(known, heightmap, mesh):
     """Checker of an entry of ``ground``; `known`: materials by name; `heightmap`, `mesh` read files."""
-    cuts = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
-    common = {'normal': direction, 'material': one_of(known), 'cut': cuts}
+    common = {'normal': direction, 'material': one_of(known), 'cut': CUTS}
     size = number(1e-3)
     shapes = {
         'plane': record(Plane, {**common, 'point': vector(3)}, ('material',)),
@@ -235,13 +286,8 @@ def obstacle_of(known):
 
 
 def zone_of(known):
-    """Checker of an entry of ``zones``; returns its material and its polygon."""
-    read = fields({'material': one_of(known), 'polygon': polygon}, ('material', 'polygon'))
-
-    def check(value, key):
-        found = read(value, key)
-        return found['material'], found['polygon']
-    return check
+    """Checker of an entry of ``zones``."""
+    return record(Zone, {'material': one_of(known), 'polygon': polygon, 'cut': CUTS}, ('material', 'polygon'))
 
 
 def air(value, key):

@@ -4,6 +4,7 @@ from math import ceil, sqrt
 
 import numpy as np
 
+from .physics.ground.zone import zones_of
 from .slabs import sides, triangles
 
 MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
@@ -11,11 +12,12 @@ MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
 
 def flat(outline, cuts, material, zones):
     """Pairs of a material and its triangles of (x, y): `outline` without `cuts`, painted with `zones`."""
-    found = [(material, triangles(outline, [*cuts, *(polygon for _, polygon in zones)]))]
-    for number, (paint, polygon) in enumerate(zones):
-        later = [over for _, over in zones[number + 1:]]
-        hiding = [cut for cut in (*cuts, *later) if boxes_meet(cut, polygon)]
-        found.append((paint, triangles(polygon, hiding, outline)))
+    zones = zones_of(zones)
+    found = [(material, triangles(outline, cuts, regions=[(zone.polygon, zone.cut) for zone in zones]))]
+    for number, (paint, polygon, own) in enumerate(zones):
+        later = [(zone.polygon, zone.cut) for zone in zones[number + 1:] if boxes_meet(zone.polygon, polygon)]
+        hiding = [cut for cut in (*cuts, *own) if boxes_meet(cut, polygon)]
+        found.append((paint, triangles(polygon, hiding, outline, later)))
     return found
 
 
@@ -36,9 +38,14 @@ def curved(corners, material, zones):
 def last_zone(zones, x, y):
     """Number of the last of `zones` that holds each place; -1 where there is none."""
     numbers = np.full(len(x), -1)
-    for number, (_, polygon) in enumerate(zones):
-        numbers[holds(polygon, x, y)] = number
+    for number, zone in enumerate(zones_of(zones)):
+        numbers[in_region(zone.polygon, zone.cut, x, y)] = number
     return numbers
+
+
+def in_region(polygon, cuts, x, y):
+    """Whether `polygon`, without `cuts`, holds each place."""
+    return holds(polygon, x, y) & ~np.any([holds(cut, x, y) for cut in cuts], axis=0)
 
 
 def holds(polygon, x, y):

@@ -3,10 +3,11 @@
 from math import isclose
 
 
-def triangles(outline, cuts=(), window=None):
+def triangles(outline, cuts=(), window=None, regions=()):
     """Triangles, tuples of three (x, y) counterclockwise, that cover `outline` except for `cuts`.
 
-    With a `window`, only what lies in that polygon, too.
+    With a `window`, only what lies in that polygon, too. `regions` are cuts with holes: pairs of an outline
+    and a sequence of polygons.
 
     The plane is sliced into slabs at the y of every corner and crossing. Within a slab no two edges
     cross, so the pieces between neighbouring edges are trapezoids, each all inside or all outside::
@@ -18,13 +19,16 @@ def triangles(outline, cuts=(), window=None):
     Polygons are tuples of (x, y) in either direction; they may be concave and overlap each other.
     """
     kept, gone = [tuple(outline), *([tuple(window)] if window else [])], [tuple(cut) for cut in cuts]
-    edges = [edge for polygon in (*kept, *gone) for edge in sides(polygon)]
+    holed = [(tuple(cut), [tuple(hole) for hole in holes]) for cut, holes in regions]
+    parts = (*kept, *gone, *(polygon for cut, holes in holed for polygon in (cut, *holes)))
+    edges = [edge for polygon in parts for edge in sides(polygon)]
     levels = sorted({y for a, b in edges for y in (a[1], b[1])} | set(crossings(edges)))
     found = []
     for low, high in zip(levels, levels[1:]):
         for piece in trapezoids(edges, low, high):
             place = middle(piece)
-            if all(inside(place, p) for p in kept) and not any(inside(place, p) for p in gone):
+            if (all(inside(place, p) for p in kept) and not any(inside(place, p) for p in gone)
+                    and not any(holds(place, *region) for region in holed)):
                 found.extend(halves(piece))
     return found
 
@@ -74,6 +78,11 @@ def inside(point, polygon):
     """Whether `point` lies in `polygon`: a ray to the right leaves it an odd number of times."""
     x, y = point
     return sum((a[1] > y) != (b[1] > y) and x < at((a, b), y) for a, b in sides(polygon)) % 2 == 1
+
+
+def holds(point, outline, holes):
+    """Whether `point` lies in `outline` and in none of its `holes`."""
+    return inside(point, outline) and not any(inside(point, hole) for hole in holes)
 
 
 def halves(piece):

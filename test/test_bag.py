@@ -137,7 +137,7 @@ def test_a_bag_without_metadata_says_what_to_do_and_its_file_alone_will_do(told,
 def test_metadata_that_cannot_be_used_says_what_to_do(told, tmp_path, content):
     path = bag(tmp_path / 'bag', told)
     (path / 'metadata.yaml').write_text(content)
-    with pytest.raises(BagError, match='its metadata.yaml cannot be used .*: `ros2 bag reindex .*` makes one'):
+    with pytest.raises(BagError, match='its metadata.yaml cannot be used .*: `ros2 bag reindex .*` makes'):
         read_bag(path)
 
 

@@ -210,8 +210,9 @@ obstacles:
     trunk, crown = course.obstacles
     assert trunk == Cylinder((60.0, 12.0, 0.0), 0.3, 8.0, trunk.material) and trunk.material.name == 'wood'
     assert crown == Sphere((60.0, 12.0, 9.0), 2.5, crown.material) and crown.material.drag > 0
-    (material, outline), = course.zones
+    (material, outline, cut), = course.zones
     assert material.name == 'green' and outline == ((3.0, 0.0), (5.0, 0.0), (5.0, 2.0))
+    assert cut == ()
     assert physics.ground_height(course, 4.5, 0.5)[1] == 'green'
 
 

@@ -12,6 +12,7 @@ from .ground.patch import Patch
 from .ground.plane import Plane
 from .ground.solid import Cylinder, Sphere
 from .ground.water import Water
+from .ground.zone import Zone
 from .integrators import METHODS
 from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
 from .play import Play, check_hole, ground_height, simulate, simulate_many
@@ -23,6 +24,6 @@ __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'Heightmap',
     'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
     'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile',
-    'Water', 'World', 'check_hole', 'cycles_now',
+    'Water', 'World', 'Zone', 'check_hole', 'cycles_now',
     'ground_height', 'register_effect', 'rolling_resistance_of_stimp',
     'simulate', 'simulate_many', 'standard_atmosphere']
