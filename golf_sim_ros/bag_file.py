@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Messages in the files of a rosbag2 bag, undecoded: a connection of somebody else is never looked into."""
 from contextlib import closing
+from io import BytesIO
 from pathlib import Path
 import sqlite3
+from typing import NamedTuple
 from urllib.parse import quote
 
 import yaml
+
+from .checked import printable
 
 SUFFIXES = ('.mcap', '.db3')
 END = b'\x89MCAP0\r\n'
@@ -14,6 +18,9 @@ REINDEX = '`ros2 bag reindex {}` makes one'
 
 class BagError(ValueError):
     """A bag that cannot be used; one line says why."""
+
+    def __init__(self, message):
+        super().__init__(printable(message))
 
 
 def raw_messages(path):
@@ -85,26 +92,35 @@ class Schemas(dict):
         super().__setitem__(number, schema._replace(encoding='', data=''))
 
 
+class InMemory(NamedTuple):
+    """A file that is read already: of its end a damaged length gets what there is, and asks for no memory."""
+
+    raw: bytes
+
+    def open(self, mode):
+        """The file, from its beginning."""
+        return BytesIO(self.raw)
+
+
 def mcap(path):
     """Messages of a .mcap file."""
-    with path.open('rb') as file:
-        file.seek(max(0, path.stat().st_size - len(END)))
-        if file.read() != END:
-            raise BagError(f'{path.name} is damaged: its end is missing, as of a recording or copy that was '
-                           'cut off; `mcap recover` saves what is there')
-    return by_rosbags(path, Schemas())
+    raw = path.read_bytes()
+    if not raw.endswith(END):
+        raise BagError(f'{path.name} is damaged: its end is missing, as of a recording or copy that was '
+                       'cut off; `mcap recover` saves what is there')
+    return by_rosbags(path, raw)
 
 
-def by_rosbags(path, schemas=None):
-    """Messages that rosbags finds in a file, or in a folder with compressed files."""
+def by_rosbags(path, raw=None):
+    """Messages that rosbags finds in a .mcap file, of bytes `raw`, or in a folder with compressed files."""
     try:
         from rosbags.rosbag2 import Reader
     except ImportError:
         raise BagError('reading a bag needs the library rosbags: pip install rosbags') from None
     try:
         reader = Reader(path)
-        if schemas is not None:
-            reader.storage.schemas = schemas
+        if raw is not None:
+            reader.storage.path, reader.storage.schemas = InMemory(raw), Schemas()
         with reader:
             # Those of the storage: where its QoS is not that of the metadata, rosbags would find nothing.
             stores = getattr(reader.storage, 'storages', [reader.storage])

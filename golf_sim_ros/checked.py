@@ -29,11 +29,16 @@ class CourseError(ValueError):
 
 def one_line(message):
     """`message` as one line that can be printed, of at most `LONGEST` letters, its middle left out."""
-    line = ''.join(letter if letter.isprintable() else '?' for letter in str(message))
+    line = printable(message)
     if len(line) <= LONGEST:
         return line
     half = LONGEST // 2 - len(CUT)
     return line[:half] + CUT + line[-half:]
+
+
+def printable(message):
+    """`message` as one line: what would end it, or cannot be printed, is a question mark."""
+    return ''.join(letter if letter.isprintable() else '?' for letter in str(message))
 
 
 def shown(value):

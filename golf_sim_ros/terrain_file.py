@@ -90,7 +90,8 @@ def geotiff(raw, unit):
     except (RasterioError, ValueError, OSError) as error:
         if isinstance(error, CourseError):
             raise
-        raise CourseError(f'cannot be read by rasterio: {" ".join(str(error).split())}') from None
+        reason = ' '.join(str(error.__cause__ or error).split())
+        raise CourseError(f'cannot be read by rasterio: {reason}') from None
 
 
 def grid_of(file):

@@ -3,7 +3,8 @@
 from golf_sim_ros.course import CourseError, load_course, load_round
 from golf_sim_ros.painted import flat, in_region, last_zone
 from golf_sim_ros.physics import ground_height, Shot, simulate, World
-from golf_sim_ros.physics.ground.polygon import beside_region, in_region as in_region_kernel, regions
+from golf_sim_ros.physics._compile import entry
+from golf_sim_ros.physics.ground import polygon
 from golf_sim_ros.physics.ground.zone import Zone
 from golf_sim_ros.physics.material import Material
 import numpy as np
@@ -81,17 +82,23 @@ def test_pictures_and_markers_show_cuts():
     assert found['turf'] == pytest.approx(3600 - ring - 387.5)
 
 
+@entry
+def beside_region(table, i, x, y):
+    """Distance from a region, and whether the place is in it."""
+    return polygon.beside_region(table, i, x, y), polygon.in_region(table, i, x, y)
+
+
 def test_the_distance_from_a_region_is_never_more_than_it_is():
-    table = regions([RING, HOLE], [(HOLE, OVER), ()])
+    table = polygon.regions([RING, HOLE], [(HOLE, OVER), ()])
     rng = np.random.default_rng(2)
     inner = rng.uniform(-20, 20, (4000, 2))
-    inner = inner[[in_region_kernel(table, 0, x, y) for x, y in inner]]
-    assert in_region(RING, (HOLE, OVER), *inner.T).all()
+    inner = inner[[beside_region(table, 0, x, y)[1] for x, y in inner]]
+    assert len(inner) > 1000 and in_region(RING, (HOLE, OVER), *inner.T).all()
     for x, y in rng.uniform(-40, 40, (300, 2)):
         nearest = np.hypot(*(inner - (x, y)).T).min()
-        away = beside_region(table, 0, x, y)
-        assert away <= nearest + 1e-9 and (away == 0.0) == in_region_kernel(table, 0, x, y)
-    assert beside_region(table, 0, 0.0, 0.0) == 10.0 and beside_region(table, 1, 0.0, 15.0) == 5.0
+        away, inside = beside_region(table, 0, x, y)
+        assert away <= nearest + 1e-9 and (away == 0.0) == inside
+    assert beside_region(table, 0, 0.0, 0.0)[0] == 10.0 and beside_region(table, 1, 0.0, 15.0)[0] == 5.0
 
 
 @pytest.mark.parametrize('speed, status, low, high', [(9.0, 'water', -20.0, -10.0),
@@ -114,6 +121,15 @@ def test_a_ball_is_placed_on_an_island_and_not_in_the_water_around(load):
         world.place('ball', (15.0, 0.0))
 
 
+def test_cuts_compile_nothing_that_is_not_compiled_without(load):
+    for content in (COURSE, POND):
+        course = load(content)
+        plain = course._replace(zones=tuple(zone._replace(cut=()) for zone in course.zones),
+                                water=tuple(pond._replace(cut=()) for pond in course.water))
+        bare = plain._replace(zones=(), water=())
+        assert World(course)._types() == World(plain)._types() == World(bare)._types()
+
+
 def test_a_zone_may_be_a_pair_as_ever(load):
     course = load(COURSE)
     pair = course._replace(zones=((course.zones[0].material, RING), ))
@@ -128,8 +144,8 @@ def test_a_zone_may_be_a_pair_as_ever(load):
 def test_a_wrong_cut_is_named(load, cut, said):
     with pytest.raises(CourseError) as caught:
         load(
-            'format: 1\nground: [{shape: plane, material: rough}]\nzones: [{material: green, polygon: [[0, 0], '
-            f'[9, 0], [9, 9]], cut: {cut}}}]\n')
+            'format: 1\nground: [{shape: plane, material: rough}]\nzones: [{material: green, polygon: [[0, 0],'
+            f' [9, 0], [9, 9]], cut: {cut}}}]\n')
     assert said in str(caught.value)
 
 
