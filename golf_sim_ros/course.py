@@ -11,10 +11,10 @@ from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
 from .height_file import heightmap_of
-from .input_file import beside, content as bytes_of
+from .input_file import beside, content as bytes_of, is_there
 from .materials import materials, shipped
 from .mesh_file import outward, read_mesh
-from .misplaced import files_reach, misplaced
+from .misplaced import files_reach, looker, misplaced, steep
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
@@ -151,7 +151,7 @@ def course_file(name_or_path):
         path = beside(Path(), name)
     except CourseError as error:
         raise CourseError(f'{name}: {error}') from None
-    if path.suffix not in ('.yaml', '.yml') and not path.is_file():
+    if path.suffix not in ('.yaml', '.yml') and not is_there(path):
         raise CourseError(f'{unknown("course", name, known)}; or give the path of a course file (.yaml)')
     return path
 
@@ -189,17 +189,18 @@ def course_of(content, base, folder, sources, opened):
     course = Course(cup=known['cup'], stick=known['flagstick'],
                     **{name: value for name, value in found.items() if name in Course._fields})
     files = [entry.get('file', entry.get('heights')) for entry in content['ground']]
+    look = looker(course)
     for key in ('tee', 'hole'):
-        on_ground(course, key, files)
+        on_ground(course, key, look, files)
     if course.hole is not None:
         even_around_hole(course, files)
-    return course._replace(notes=(*notes, *misplaced(course, files)))
+    return course._replace(notes=(*notes, *misplaced(course, files), *steep(course, look)))
 
 
-def on_ground(course, key, files):
+def on_ground(course, key, look, files):
     """Refuse a course with a tee or hole that has no ground under it; `files`: those of its shapes."""
     place = getattr(course, key)
-    if place is not None and physics.ground_height(course, *place) is None:
+    if place is not None and look(*place) is None:
         raise refused(key, list(place), f'above some ground, and there is none{files_reach(course, files)}')
 
 

@@ -21,6 +21,14 @@ def beside(folder, name):
         raise CourseError(f'cannot be read: {error}') from None
 
 
+def is_there(path):
+    """Whether there is a file at `path`, which may be no path at all."""
+    try:
+        return os.path.isfile(path)
+    except (OSError, ValueError):
+        return False
+
+
 def content(path):
     """Bytes of the file at `path`.
 

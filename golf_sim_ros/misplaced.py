@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Meshes that are not where their course plays: in other units, on their side, or far from the tee."""
-from math import dist
+"""What looks wrong of a course: meshes on their side or far from the tee, a tee that is too steep."""
+from math import dist, hypot
 from pathlib import Path
 
 import numpy as np
 
 from .physics.ground.heightmap import Heightmap, corners as map_corners
 from .physics.ground.mesh import Mesh
+from .physics.ground.surface import look_down
+from .physics.model import bare_ground, materials
 
 SMALL = 10.0  # m: smaller ones are bunkers and the like, which nobody tees up on
 
@@ -30,6 +32,37 @@ def misplaced(course, files):
         f'{name}: has no ground where the {what} is, {list(place)}: it reaches {reach(mesh)}'
         for mesh, name in meshes if max(sizes(mesh)) >= max(SMALL, 0.5 * apart) for what, place in asked
     ]
+
+
+def looker(course):
+    """Function that gives height [m] and `Material` of the highest ground at x, y; None without any."""
+    ground, known = bare_ground(course), materials(course)
+
+    def look(x, y):
+        z, part, number = look_down(ground, float(x), float(y))
+        return None if part < 0 else (z, known[number])
+    return look
+
+
+def steep(course, look):
+    """A note where a ball rolls off the tee: then nobody can strike it there."""
+    (x, y), step = course.tee, course.ball.radius
+    around = [look(x + dx, y + dy) for dx, dy in ((step, 0), (-step, 0), (0, step), (0, -step))]
+    if None in around:
+        return []
+    east, west, north, south = (height for height, _ in around)
+    slope = hypot(east - west, north - south) / (2.0 * step)
+    material = look(x, y)[1]
+    most = steepest(material, course.ball.inertia)
+    if slope <= most:
+        return []
+    return [f'tee {list(course.tee)}: a ball rolls off, on a slope of {100 * slope:.3g} % of {material.name}, '
+            f'which holds one up to {100 * most:.3g} %: make it more level, or of another material']
+
+
+def steepest(material, inertia):
+    """Slope, rise over run, up to which a ball rests, held by rolling resistance as far as it grips."""
+    return min(material.static_friction, (1.0 + inertia) * material.rolling_resistance)
 
 
 def sizes(mesh):

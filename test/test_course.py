@@ -404,7 +404,7 @@ def test_a_tee_over_a_pit_without_a_floor_has_no_ground(complaint):
     assert said == 'tee [0.0, 0.0] must be above some ground, and there is none'
 
 
-@pytest.mark.parametrize('name', ['golf_without_freinds', '', '.', 'courses/links', '\0'])
+@pytest.mark.parametrize('name', ['golf_without_freinds', '', '.', 'courses/links', '\0', 'é' * 400])
 def test_an_unknown_course_is_told_the_known_ones(name):
     with pytest.raises(CourseError, match='is unknown; known: golf_without_friends') as caught:
         load_course(name)

@@ -144,8 +144,8 @@ def test_a_zone_may_be_a_pair_as_ever(load):
 def test_a_wrong_cut_is_named(load, cut, said):
     with pytest.raises(CourseError) as caught:
         load(
-            'format: 1\nground: [{shape: plane, material: rough}]\nzones: [{material: green, polygon: [[0, 0],'
-            f' [9, 0], [9, 9]], cut: {cut}}}]\n')
+            'format: 1\nground: [{shape: plane, material: rough}]\nzones: [{material: green, polygon: [[0,'
+            f' 0], [9, 0], [9, 9]], cut: {cut}}}]\n')
     assert said in str(caught.value)
 
 

@@ -160,7 +160,7 @@ def test_heights_that_jump_by_hundreds_of_metres_are_told(course, tmp_path):
     heights = GREEN.copy()
     heights[7, 3] = 0.0
     np.save(tmp_path / 'green.npy', heights)
-    note, = course('green.npy', ', origin: [10, 5], spacing: 2').notes
+    note, *_ = course('green.npy', ', origin: [10, 5], spacing: 2').notes
     assert note.startswith('green.npy: heights jump by 35') and 'beside the one at x 16, y 1' in note
 
 
