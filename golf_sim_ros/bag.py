@@ -16,6 +16,8 @@ TEXT, POSE, TWIST, STRIKE, WIND = (
     'std_msgs/msg/String', 'geometry_msgs/msg/PoseStamped', 'geometry_msgs/msg/TwistStamped',
     'geometry_msgs/msg/Twist', 'geometry_msgs/msg/Vector3Stamped')
 OF_SIM = {'journal': TEXT, 'shot/result': TEXT, 'collisions': TEXT, 'shot': STRIKE, 'wind': WIND}
+OF_RESULT = {'shot': int, 'ball': str, 'status': str}  # what every result has, and every collision
+OF_COLLISION = {'time': (int, float), 'ball': str, 'kind': str, 'with': str}
 OF_BALL = {'pose': POSE, 'twist': TWIST, 'shot': STRIKE}
 
 
@@ -171,8 +173,8 @@ def recording(namespace, parts, path):
     winds = parts['', 'wind']
     return Recording(
         namespace, start, journal,
-        tuple(once(texts(parts['', 'shot/result'], path), lambda result: result['shot'])),
-        tuple(once(texts(parts['', 'collisions'], path), repr)),
+        tuple(once(texts(parts['', 'shot/result'], path, OF_RESULT), lambda result: result['shot'])),
+        tuple(once(texts(parts['', 'collisions'], path, OF_COLLISION), repr)),
         tuple(sorted(strikes(parts, journal))),
         {ball: track(parts[ball, 'pose'], parts[ball, 'twist'])
          for (ball, name), _ in by_topic(parts) if name == 'pose'},
@@ -205,12 +207,17 @@ def entry_of(message, path):
         raise BagError(f'{path}: journal: {error}') from None
 
 
-def texts(told, path):
-    """Objects of messages with JSON."""
+def texts(told, path, needed):
+    """Objects of messages with JSON, which have the keys that are `needed`."""
     try:
-        return [json.loads(message.data) for _, message in told]
-    except ValueError as error:
-        raise BagError(f'{path}: a result or collision is not JSON: {error}') from None
+        found = [json.loads(message.data) for _, message in told]
+    except (ValueError, RecursionError) as error:
+        raise BagError(f'{path}: is damaged: a result or collision is not JSON: {error}') from None
+    for one in found:
+        for name, kind in needed.items():
+            if not isinstance(one, dict) or not isinstance(one.get(name), kind):
+                raise BagError(f'{path}: is damaged: {name!r} is missing in a result or collision')
+    return found
 
 
 def once(found, key):

@@ -56,8 +56,8 @@ def steep(course, look):
     most = steepest(material, course.ball.inertia)
     if slope <= most:
         return []
-    return [f'tee {list(course.tee)}: a ball rolls off, on a slope of {100 * slope:.3g} % of {material.name}, '
-            f'which holds one up to {100 * most:.3g} %: make it more level, or of another material']
+    return [f'tee {list(course.tee)}: a ball rolls off, on a slope of {100 * slope:.3g} % of {material.name},'
+            f' which holds one up to {100 * most:.3g} %: make it more level, or of another material']
 
 
 def steepest(material, inertia):

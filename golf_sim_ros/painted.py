@@ -7,18 +7,48 @@ import numpy as np
 from .physics.ground.zone import zones_of
 from .slabs import sides, triangles
 
+FEW = 20  # zones on a tile; fewer on all of a surface are drawn at once
 MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
 
 
 def flat(outline, cuts, material, zones):
     """Pairs of a material and its triangles of (x, y): `outline` without `cuts`, painted with `zones`."""
     zones = zones_of(zones)
-    found = [(material, triangles(outline, cuts, regions=[(zone.polygon, zone.cut) for zone in zones]))]
+    near = Boxes([zone.polygon for zone in zones])
+    base = []
+    for tile in tiles(outline, len(zones)):
+        base += triangles(tile, cuts, outline, [(zones[i].polygon, zones[i].cut) for i in near.to(tile)])
+    found = [(material, base)]
     for number, (paint, polygon, own) in enumerate(zones):
-        later = [(zone.polygon, zone.cut) for zone in zones[number + 1:] if boxes_meet(zone.polygon, polygon)]
+        later = [(zones[i].polygon, zones[i].cut) for i in near.to(polygon, number + 1)]
         hiding = [cut for cut in (*cuts, *own) if boxes_meet(cut, polygon)]
         found.append((paint, triangles(polygon, hiding, outline, later)))
     return found
+
+
+def tiles(outline, count):
+    """Rectangles that cover `outline`, so small that of `count` polygons over it a few lie in each."""
+    n = ceil(sqrt(count / FEW))
+    if n <= 1:
+        return [outline]
+    x, y = (np.linspace(low, high, n + 1).tolist()
+            for low, high in zip(np.min(outline, 0), np.max(outline, 0)))
+    return [((x[i], y[k]), (x[i + 1], y[k]), (x[i + 1], y[k + 1]), (x[i], y[k + 1]))
+            for i in range(n) for k in range(n)]
+
+
+class Boxes:
+    """Upright rectangles around `polygons`."""
+
+    def __init__(self, polygons):
+        self.low = np.array([np.min(polygon, 0) for polygon in polygons]).reshape(-1, 2)
+        self.high = np.array([np.max(polygon, 0) for polygon in polygons]).reshape(-1, 2)
+
+    def to(self, polygon, first=0):
+        """Numbers, from `first` on, of those that meet the rectangle around `polygon`."""
+        low, high = np.min(polygon, 0), np.max(polygon, 0)
+        near = (low <= self.high[first:]).all(1) & (self.low[first:] <= high).all(1)
+        return (first + np.flatnonzero(near)).tolist()
 
 
 def boxes_meet(one, other):
@@ -39,7 +69,9 @@ def last_zone(zones, x, y):
     """Number of the last of `zones` that holds each place; -1 where there is none."""
     numbers = np.full(len(x), -1)
     for number, zone in enumerate(zones_of(zones)):
-        numbers[in_region(zone.polygon, zone.cut, x, y)] = number
+        (left, front), (right, back) = np.min(zone.polygon, 0), np.max(zone.polygon, 0)
+        near = np.flatnonzero((left <= x) & (x <= right) & (front <= y) & (y <= back))
+        numbers[near[in_region(zone.polygon, zone.cut, x[near], y[near])]] = number
     return numbers
 
 

@@ -208,6 +208,15 @@ def test_what_is_cut_off_is_told(told, tmp_path):
         read_bag(path)
 
 
+@pytest.mark.parametrize('topic, old, new, missing', [
+    ('shot/result', '"shot"', '"shoT"', 'shot'), ('shot/result', '"ball": "red"', '"ball": [red]', 'JSON'),
+    ('shot/result', '"status": "at_rest"', '"status": [3]', 'status'),
+    ('collisions', '"kind"', '"kine"', 'kind')])
+def test_a_result_or_collision_that_is_none_is_refused(told, tmp_path, topic, old, new, missing):
+    with pytest.raises(BagError, match=f'is damaged: .*{missing}'):
+        read_bag(bag(tmp_path / 'bag', changed(told, replaced(old, new), topic)))
+
+
 def test_a_foreign_bag_is_refused(tmp_path, storage):
     told = [('/chatter', 'std_msgs/msg/String', 1, made('std_msgs/msg/String', data='hello'))]
     with pytest.raises(BagError, match='no play'):

@@ -182,3 +182,20 @@ def test_a_wrong_round_is_told_in_one_line(tmp_path, content, said):
         load_round(path)
     assert said in str(caught.value) and str(caught.value).startswith(f'{path}: ') and len(str(
         caught.value)) <= 300
+
+
+def test_many_zones_are_shown_as_few_are():
+    turf = Material('turf')
+    places = [(-28 + 4 * (i % 14), -28 + 4 * (i // 14)) for i in range(196)]
+    zones = [Zone(Material(f'zone {i % 3}'), ((x, y), (x + 5, y), (x + 5, y + 3), (x, y + 3)))
+             for i, (x, y) in enumerate(places)]
+    found = {}
+    for material, pieces in flat(BOX, (HOLE,), turf, zones):
+        found[material.name] = found.get(material.name, 0.0) + area(pieces)
+    x, y = (part.ravel() + 0.125 for part in np.meshgrid(np.arange(-30, 30, 0.25), np.arange(-30, 30, 0.25)))
+    last = last_zone(zones, x, y)
+    shown = np.maximum(np.abs(x), np.abs(y)) > 10
+    for number in range(3):
+        own = shown & (last >= 0) & (last % 3 == number)
+        assert found[f'zone {number}'] == pytest.approx(own.sum() / 16)
+    assert found['turf'] == pytest.approx((shown & (last < 0)).sum() / 16)
