@@ -9,7 +9,7 @@ from .height_grid import UNITS, Grid
 from .input_file import decoded
 
 HINT = "needs rasterio: pip install 'golf_sim_ros[terrain]', or apt install python3-rasterio"
-MOST = 25_000_000  # heights: 5 km x 5 km at 1 m
+MOST = 4_000_000  # heights: 2 km x 2 km at 1 m
 PROJECT = 'project it to metres, as with `gdalwarp -t_srs EPSG:{zone} -tr 1 1 -r cubic in.tif out.tif`'
 NAMES = ('ncols', 'nrows', 'xllcorner', 'yllcorner', 'xllcenter', 'yllcenter', 'cellsize', 'dx', 'dy',
          'nodata_value')
