@@ -7,18 +7,19 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from .bag_file import BagError, raw_messages
 from .journal import JournalError, opened
 from .needed import how_to_get
+
+__all__ = ['BagError', 'read_bag', 'Recording', 'Strike', 'Track']
 
 TEXT, POSE, TWIST, STRIKE, WIND = (
     'std_msgs/msg/String', 'geometry_msgs/msg/PoseStamped', 'geometry_msgs/msg/TwistStamped',
     'geometry_msgs/msg/Twist', 'geometry_msgs/msg/Vector3Stamped')
 OF_SIM = {'journal': TEXT, 'shot/result': TEXT, 'collisions': TEXT, 'shot': STRIKE, 'wind': WIND}
+OF_RESULT = {'shot': int, 'ball': str, 'status': str}  # what every result has, and every collision
+OF_COLLISION = {'time': (int, float), 'ball': str, 'kind': str, 'with': str}
 OF_BALL = {'pose': POSE, 'twist': TWIST, 'shot': STRIKE}
-
-
-class BagError(ValueError):
-    """A bag that cannot be used; one line says why."""
 
 
 class Track(NamedTuple):
@@ -92,7 +93,7 @@ def read_bag(path):
     Parameters
     ----------
     path : str or path
-        Folder of a rosbag2 bag.
+        Folder of a rosbag2 bag, or one of its files, .mcap or .db3.
 
     Returns
     -------
@@ -104,16 +105,20 @@ def read_bag(path):
     BagError
         The bag is damaged, or holds no play.
     """
-    told = messages(Path(path))
+    try:
+        told = raw_messages(Path(path))
+    except (BagError, OSError, MemoryError) as error:
+        raise BagError(f'{path}: {error}') from None
     sims = {topic.removesuffix(f'/{end}') for topic, kind in {message[1:3] for message in told}
             for end in ('journal', 'shot/result') if topic.endswith(f'/{end}') and kind == TEXT}
     if not sims:
         raise BagError(f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`')
-    plays = {}
-    for received, topic, kind, message in told:
+    plays, decode = {}, decoder(path)
+    for received, topic, kind, raw in told:
         place = sorted_out(topic, kind, sims)
         if place:
             namespace, ball, name = place
+            message = decode(topic, kind, raw)
             parts = plays.setdefault(namespace, [defaultdict(list)])
             parts = begun(parts, name, message, path)
             parts[ball, name].append((received, message))
@@ -121,28 +126,21 @@ def read_bag(path):
                  for namespace, starts in plays.items() for parts in starts)
 
 
-def messages(path):
-    """All that may be of a play: time received [ns], topic, type, message."""
+def decoder(path):
+    """Function that makes a message of a topic, a type and bytes."""
     try:
-        from rosbags.highlevel import AnyReader
         from rosbags.typesys import Stores, get_typestore
     except ImportError:
         raise BagError(f'reading a bag needs rosbags: {how_to_get("bag", "rosbags")}') from None
-    if not path.exists():
-        raise BagError(f'{path}: there is no such bag')
-    kinds = {*OF_SIM.values(), *OF_BALL.values()}
-    try:
-        with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
-            wanted = [connection for connection in reader.connections if connection.msgtype in kinds]
-            found = [(time, connection.topic, connection.msgtype, reader.deserialize(raw, connection.msgtype))
-                     for connection, time, raw in (reader.messages(wanted) if wanted else ())]
-            whole = sum(connection.msgcount for connection in wanted)
-    except Exception as error:  # damage makes the library, and those below it, raise almost anything
-        reason = ' '.join(str(error).split()) or type(error).__name__
-        raise BagError(f'{path}: cannot be read as a rosbag2 bag: {reason}') from None
-    if len(found) != whole:
-        raise BagError(f'{path}: is damaged: {len(found)} of {whole} messages are left')
-    return found
+    types = get_typestore(Stores.ROS2_JAZZY)
+
+    def decode(topic, kind, raw):
+        try:
+            return types.deserialize_cdr(raw, kind)
+        except Exception as error:  # damage makes the library raise almost anything
+            reason = ' '.join(str(error).split()) or type(error).__name__
+            raise BagError(f'{path}: is damaged: a message of {topic} cannot be read: {reason}') from None
+    return decode
 
 
 def sorted_out(topic, kind, sims):
@@ -176,8 +174,8 @@ def recording(namespace, parts, path):
     winds = parts['', 'wind']
     return Recording(
         namespace, start, journal,
-        tuple(once(texts(parts['', 'shot/result'], path), lambda result: result['shot'])),
-        tuple(once(texts(parts['', 'collisions'], path), repr)),
+        tuple(once(texts(parts['', 'shot/result'], path, OF_RESULT), lambda result: result['shot'])),
+        tuple(once(texts(parts['', 'collisions'], path, OF_COLLISION), repr)),
         tuple(sorted(strikes(parts, journal))),
         {ball: track(parts[ball, 'pose'], parts[ball, 'twist'])
          for (ball, name), _ in by_topic(parts) if name == 'pose'},
@@ -210,12 +208,17 @@ def entry_of(message, path):
         raise BagError(f'{path}: journal: {error}') from None
 
 
-def texts(told, path):
-    """Objects of messages with JSON."""
+def texts(told, path, needed):
+    """Objects of messages with JSON, which have the keys that are `needed`."""
     try:
-        return [json.loads(message.data) for _, message in told]
-    except ValueError as error:
-        raise BagError(f'{path}: a result or collision is not JSON: {error}') from None
+        found = [json.loads(message.data) for _, message in told]
+    except (ValueError, RecursionError) as error:
+        raise BagError(f'{path}: is damaged: a result or collision is not JSON: {error}') from None
+    for one in found:
+        for name, kind in needed.items():
+            if not isinstance(one, dict) or not isinstance(one.get(name), kind):
+                raise BagError(f'{path}: is damaged: {name!r} is missing in a result or collision')
+    return found
 
 
 def once(found, key):

@@ -9,7 +9,12 @@ from difflib import get_close_matches
 from math import hypot, inf
 from reprlib import Repr
 
+from .simple_polygon import crossing
+
 FAR = 1e6  # m: beyond this no coordinate is meant
+
+LONGEST, CUT = 300, ' ... '  # letters of a message, and what stands for those left out
+MANY = 20  # names that are told of those that are known
 
 _SHORT = Repr()
 _SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxother, _SHORT.maxdict = 3, 80, 80, 4
@@ -17,6 +22,23 @@ _SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxother, _SHORT.maxdict = 3, 80, 80, 
 
 class CourseError(ValueError):
     """A course or material that cannot be used: one line with file, key, value and what is allowed."""
+
+    def __init__(self, message):
+        super().__init__(one_line(message))
+
+
+def one_line(message):
+    """`message` as one line that can be printed, of at most `LONGEST` letters, its middle left out."""
+    line = printable(message)
+    if len(line) <= LONGEST:
+        return line
+    half = LONGEST // 2 - len(CUT)
+    return line[:half] + CUT + line[-half:]
+
+
+def printable(message):
+    """`message` as one line: what would end it, or cannot be printed, is a question mark."""
+    return ''.join(letter if letter.isprintable() else '?' for letter in str(message))
 
 
 def shown(value):
@@ -40,9 +62,10 @@ def refused(key, value, allowed):
 def unknown(what, value, choices):
     """Error for a `value` that is none of `choices`, with the one that was probably meant."""
     known = sorted(choices)
-    close = get_close_matches(value, known, 1) if isinstance(value, str) else []
+    close = get_close_matches(value, known, 1) if isinstance(value, str) and len(value) < LONGEST else []
     hint = f'; did you mean {close[0]!r}?' if close else ''
-    return CourseError(f'{what} {shown(value)} is unknown; known: {", ".join(known)}{hint}')
+    more = f' and {len(known) - MANY} more' if len(known) > MANY else ''
+    return CourseError(f'{what} {shown(value)} is unknown; known: {", ".join(known[:MANY])}{more}{hint}')
 
 
 def number(least=-FAR, most=FAR):
@@ -110,30 +133,14 @@ def polygon(value, key):
     corners = list_of(vector(2), 'a list of 3 or more corners [x, y]', 3)(value, key)
     if len(corners) > 3 and corners[0] == corners[-1]:
         corners = corners[:-1]
-    sides = list(zip(corners, corners[1:] + corners[:1]))
-    for i, side in enumerate(sides):
-        if side[0] == side[1]:
-            raise refused(key, value, f'a polygon, but corner {list(side[0])} comes twice in a row')
-        for j in range(i):
-            if _meet(*sides[j], *side):
-                raise refused(key, value, f'a polygon without crossings, but its sides {j} and {i} meet')
+    for corner, after in zip(corners, corners[1:] + corners[:1]):
+        if corner == after:
+            raise refused(key, value, f'a polygon, but corner {list(corner)} comes twice in a row')
+    found = crossing(corners)
+    if found:
+        raise refused(key, value, 'a polygon without crossings, but its sides '
+                      f'{found[0]} and {found[1]} meet')
     return corners
-
-
-def _meet(a, b, c, d):
-    """Whether the sides ab and cd of a polygon share more than the corner between neighbours."""
-    if b == c or d == a:
-        corner, one, other = (b, a, d) if b == c else (a, b, c)
-        return _turn(one, corner, other) == 0 and any(
-            (p - o) * (q - o) > 0 for p, q, o in zip(one, other, corner))
-    apart = any(max(a[k], b[k]) < min(c[k], d[k]) or max(c[k], d[k]) < min(a[k], b[k]) for k in (0, 1))
-    return not apart and _turn(a, b, c) * _turn(a, b, d) <= 0 and _turn(c, d, a) * _turn(c, d, b) <= 0
-
-
-def _turn(a, b, c):
-    """1 where the way from `a` over `b` to `c` turns left, -1 where it turns right, 0 straight."""
-    area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    return (area > 0) - (area < 0)
 
 
 def mapping(value, key):

@@ -10,25 +10,38 @@ import numpy as np
 from . import physics
 from .checked import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon,
                       record, refused, shown, tagged, text, unknown, vector)
-from .height_file import heights_in
+from .height_file import heightmap_of
+from .input_file import beside, content as bytes_of, is_there
 from .materials import materials, shipped
 from .mesh_file import outward, read_mesh
+from .misplaced import files_reach, looker, misplaced, steep
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
-from .physics.ground.heightmap import Heightmap
 from .physics.ground.mesh import Mesh
 from .physics.ground.patch import Patch
 from .physics.ground.plane import Plane
 from .physics.ground.solid import Cylinder, Sphere
 from .physics.ground.water import Water
+from .physics.ground.zone import Zone
 from .share import share
-from .yaml_file import read_yaml
+from .yaml_file import read_yaml, uncollected
 
-__all__ = ['CourseError', 'load_course', 'shipped_courses']
+__all__ = ['CourseError', 'load_course', 'load_round', 'shipped_courses']
 
 FORMAT = 1
+UP = {'y': 'y', 'z': 'z'}  # axes of a mesh file
 
+
+def format_number(value, key):
+    """The number of the schema."""
+    if type(value) is not int or value != FORMAT:
+        raise refused(key, value, f'{FORMAT}')
+    return value
+
+
+ROUND = fields({'format': format_number, 'name': text,
+                'round': list_of(text, 'a list of one or more course files', 1, 100)}, ('format', 'round'))
 PROFILES = {
     'log': record(LogProfile, {'roughness': number(1e-6, 10)}),
     'power': record(PowerProfile, {'exponent': number(0, 2)}),
@@ -40,7 +53,8 @@ ALTITUDE = fields({'altitude': number(-1000, 11000)})
 BALL = record(Ball, {'mass': number(1e-6, 1000), 'radius': number(1e-3, 1), 'inertia': number(0.01, 1),
                      'restitution': number(0, 1), 'friction': number(0)})
 
-WATER = record(Water, {'polygon': polygon, 'level': number()}, ('polygon', 'level'))
+CUTS = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
+WATER = record(Water, {'polygon': polygon, 'level': number(), 'cut': CUTS}, ('polygon', 'level'))
 
 
 def load_course(name_or_path):
@@ -60,17 +74,66 @@ def load_course(name_or_path):
     CourseError
         One line: file, key, value and what is allowed.
     """
-    path = course_file(name_or_path)
-    raw, content = read_yaml(path)
+    path, raw, content = opened_course(name_or_path)
+    names = round_of(path, content)
+    if names is not None:
+        raise CourseError(f'{path}: is a round of {len(names)} courses: give one of them: {", ".join(names)}')
     base, sources = shipped()
     opened = {}
     try:
-        course = course_of(content, base, path.parent, sources, opened)
+        with uncollected(), np.errstate(all='ignore'):  # whatever is not finite is refused
+            course = course_of(content, base, path.parent, sources, opened)
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
     return course._replace(name=course.name or path.stem, path=str(path),
                            digest=digest(raw, sources, opened),
-                           notes=tuple(note for file in opened.values() for note in file.notes))
+                           notes=(*(note for file in opened.values() for note in file.notes), *course.notes))
+
+
+def load_round(name_or_path):
+    """The courses of a round, in the order of play.
+
+    Parameters
+    ----------
+    name_or_path : str or path
+        Path of a file that names several, ``round: [first.yaml, second.yaml]``, from its own folder on or
+        as shipped ones; or what `load_course` takes, which is a round of one.
+
+    Returns
+    -------
+    tuple of golf_sim_ros.physics.course.Course
+
+    Raises
+    ------
+    CourseError
+        One line, as of `load_course`.
+    """
+    path, _, content = opened_course(name_or_path)
+    names = round_of(path, content)
+    if names is None:
+        return load_course(name_or_path),
+    try:
+        known = shipped_courses()
+        return tuple(load_course(name if name in known else beside(path.parent, name)) for name in names)
+    except CourseError as error:
+        raise CourseError(f'{path}: round: {error}') from None
+
+
+def opened_course(name_or_path):
+    """Path, bytes and content of a course file."""
+    path = course_file(name_or_path)
+    with uncollected():
+        return path, *read_yaml(path)
+
+
+def round_of(path, content):
+    """Names of the courses that a file with the key ``round`` names; None where it is a course."""
+    if not isinstance(content, dict) or 'round' not in content:
+        return None
+    try:
+        return ROUND(content, '')['round']
+    except CourseError as error:
+        raise CourseError(f'{path}: {error}') from None
 
 
 def shipped_courses():
@@ -84,8 +147,11 @@ def course_file(name_or_path):
     if name_or_path in known:
         return known[name_or_path]
     name = os.fspath(name_or_path)
-    path = Path(name).expanduser()
-    if path.suffix not in ('.yaml', '.yml') and not path.is_file():
+    try:
+        path = beside(Path(), name)
+    except CourseError as error:
+        raise CourseError(f'{name}: {error}') from None
+    if path.suffix not in ('.yaml', '.yml') and not is_there(path):
         raise CourseError(f'{unknown("course", name, known)}; or give the path of a course file (.yaml)')
     return path
 
@@ -95,8 +161,9 @@ def digest(raw, sources, opened):
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())
-    for name in sorted(opened):
-        total.update(name.encode() + b'\0' + opened[name].digest)
+    meshes = {name: file.digest for (name, _, _), file in opened.items()}
+    for name in sorted(meshes):
+        total.update(name.encode() + b'\0' + meshes[name])
     return total.hexdigest()
 
 
@@ -107,7 +174,8 @@ def course_of(content, base, folder, sources, opened):
     meshes into `opened`, by the names that the file gives them.
     """
     known = materials(mapping(content, '').get('materials', {}), base)
-    shape = shape_of(known, heights_in(folder, sources), mesh_of(known, folder, opened))
+    notes = []
+    shape = shape_of(known, heightmap_of(known, folder, sources, notes), mesh_of(known, folder, opened))
     read = fields({
         'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
         'bounds': polygon, 'air': air, 'wind_profile': tagged('law', PROFILES), 'effects': effects,
@@ -120,33 +188,28 @@ def course_of(content, base, folder, sources, opened):
     found = read(content, '')
     course = Course(cup=known['cup'], stick=known['flagstick'],
                     **{name: value for name, value in found.items() if name in Course._fields})
+    files = [entry.get('file', entry.get('heights')) for entry in content['ground']]
+    look = looker(course)
     for key in ('tee', 'hole'):
-        on_ground(course, key)
+        on_ground(course, key, look, files)
     if course.hole is not None:
-        even_around_hole(course)
-    return course
+        even_around_hole(course, files)
+    return course._replace(notes=(*notes, *misplaced(course, files), *steep(course, look)))
 
 
-def on_ground(course, key):
-    """Refuse a course with a tee or hole that has no ground under it."""
+def on_ground(course, key, look, files):
+    """Refuse a course with a tee or hole that has no ground under it; `files`: those of its shapes."""
     place = getattr(course, key)
-    if place is not None and physics.ground_height(course, *place) is None:
-        raise refused(key, list(place), 'above some ground, and there is none')
+    if place is not None and look(*place) is None:
+        raise refused(key, list(place), f'above some ground, and there is none{files_reach(course, files)}')
 
 
-def even_around_hole(course):
+def even_around_hole(course, files):
     """Refuse a course whose hole has no ground all round, or ground that is too uneven."""
     try:
         physics.check_hole(course)
     except ValueError as error:
-        raise CourseError(str(error)) from None
-
-
-def format_number(value, key):
-    """The number of the schema."""
-    if type(value) is not int or value != FORMAT:
-        raise refused(key, value, f'{FORMAT}')
-    return value
+        raise CourseError(f'{error}{files_reach(course, files)}') from None
 
 
 class MeshFile(NamedTuple):
@@ -160,40 +223,47 @@ class MeshFile(NamedTuple):
 
 def mesh_of(known, folder, opened):
     """Checker of a mesh; see `course_of`."""
-    read = fields({'file': text, 'material': one_of(known), 'one_sided': flag}, ('file', 'material'))
+    read = fields({'file': text, 'material': one_of(known), 'one_sided': flag, 'up': one_of(UP),
+                   'scale': number(1e-6, 1e6)}, ('file', 'material'))
 
     def check(value, key):
         entry = read(value, key)
         name, one_sided = entry['file'], entry.get('one_sided', False)
-        path = folder / Path(name).expanduser()
+        use = name, entry.get('up'), entry.get('scale', 1.0)
         try:
-            if name not in opened:
-                vertices, faces, notes = read_mesh(path)
-                opened[name] = MeshFile(vertices, faces, tuple(notes), sha256(path.read_bytes()).digest())
+            if use not in opened:
+                opened[use] = opened_mesh(beside(folder, name), *use[1:])
         except CourseError as error:
-            raise CourseError(f'{key}.file {error}') from None
-        file = opened[name]
+            reason = str(error).removeprefix(f'{folder / name}: ')
+            raise CourseError(f'{key}.file {name}: {reason}') from None
+        file = opened[use]
         faces = file.faces
         if one_sided:
-            faces, notes = outward(file.vertices, faces, path.name)
-            opened[name] = file._replace(notes=tuple(dict.fromkeys((*file.notes, *notes))))
+            faces, notes = outward(file.vertices, faces, Path(name).name)
+            opened[use] = file._replace(notes=tuple(dict.fromkeys((*file.notes, *notes))))
         return Mesh(file.vertices, faces, entry['material'], one_sided)
     return check
 
 
-def shape_of(known, heights, mesh):
-    """Checker of an entry of ``ground``; `known`: materials by name; `heights`, `mesh` read files."""
-    cuts = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
-    common = {'normal': direction, 'material': one_of(known), 'cut': cuts}
+def opened_mesh(path, up, scale):
+    """`MeshFile` of what is at `path`; a .gltf file is but the beginning of its mesh, so that counts too."""
+    vertices, faces, notes = read_mesh(path, up, scale)
+    digest = sha256(bytes_of(path))
+    if path.suffix.lower() == '.gltf':
+        digest.update(vertices.tobytes() + faces.tobytes())
+    return MeshFile(vertices, faces, tuple(notes), digest.digest())
+
+
+def shape_of(known, heightmap, mesh):
+    """Checker of an entry of ``ground``; `known`: materials by name; `heightmap`, `mesh` read files."""
+    common = {'normal': direction, 'material': one_of(known), 'cut': CUTS}
     size = number(1e-3)
     shapes = {
         'plane': record(Plane, {**common, 'point': vector(3)}, ('material',)),
         'patch': record(Patch, {**common, 'center': vector(3), 'heading': number(), 'length': size,
                                 'width': size, 'one_sided': flag},
                         ('center', 'length', 'width', 'material')),
-        'heightmap': record(Heightmap, {'heights': heights, 'origin': vector(2), 'spacing': size,
-                                        'material': one_of(known)},
-                            ('heights', 'spacing', 'material')),
+        'heightmap': heightmap,
         'mesh': mesh,
     }
 
@@ -217,13 +287,8 @@ def obstacle_of(known):
 
 
 def zone_of(known):
-    """Checker of an entry of ``zones``; returns its material and its polygon."""
-    read = fields({'material': one_of(known), 'polygon': polygon}, ('material', 'polygon'))
-
-    def check(value, key):
-        found = read(value, key)
-        return found['material'], found['polygon']
-    return check
+    """Checker of an entry of ``zones``."""
+    return record(Zone, {'material': one_of(known), 'polygon': polygon, 'cut': CUTS}, ('material', 'polygon'))
 
 
 def air(value, key):

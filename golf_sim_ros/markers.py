@@ -174,7 +174,7 @@ def water(course):
     made = marker('water', 0, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), BLUE)
     made.color.a = CLEAR
     made.points = points((x, y, pond.level) for pond in course.water
-                         for triangle in triangles(pond.polygon) for x, y in triangle)
+                         for triangle in triangles(pond.polygon, pond.cut) for x, y in triangle)
     return [made]
 
 

@@ -71,24 +71,33 @@ def materials(value, base):
     """
     own = {text(name, 'materials: name'): entry(content, f'materials.{name}', {**FIELDS, 'like': text})
            for name, content in mapping(value, 'materials').items()}
-    return {name: Material(name=name, **_filled(name, own, base)) for name in {**base, **own}}
+    filled = {}
+    for name in own:
+        for step in reversed(_way_to_known(name, own, base, filled)):
+            content = dict(own[step])
+            like = content.pop('like', step)
+            above = base.get(step, {}) if like == step else filled[like] if like in filled else base[like]
+            filled[step] = {**above, **content}
+    return {name: Material(name=name, **entry) for name, entry in {**base, **filled}.items()}
 
 
-def _filled(name, own, base, way=()):
-    """All fields of material `name`, with those of the material that it is like.
+def _way_to_known(name, own, base, filled):
+    """Names of materials from `name` on, each like the next one, up to what is `filled` or shipped.
 
     A material is like the shipped one of its name where it does not say otherwise.
     """
-    if name not in own:
-        return base[name]
-    content = dict(own[name])
-    like = content.pop('like', None)
-    key = below(f'materials.{name}', 'like')
-    if like is None or like == name and name in base:
-        return {**base.get(name, {}), **content}
-    if like not in own and like not in base:
-        raise unknown(key, like, {*own, *base} - {name})
-    if like == name or like in way:
-        raise CourseError(f'{key} {like!r} leads back to itself: {" -> ".join((*way, name, like))}; '
-                          'a material may not be like itself')
-    return {**_filled(like, own, base, (*way, name)), **content}
+    way = {name: None}  # in order, and found at once
+    while True:
+        like = own[name].get('like')
+        key = below(f'materials.{name}', 'like')
+        if like is None or like == name and name in base:
+            return list(way)
+        if like not in own and like not in base:
+            raise unknown(key, like, {*own, *base} - {name})
+        if like in way:
+            raise CourseError(f'{key} {like!r} leads back to itself: {" -> ".join((*way, like))}; '
+                              'a material may not be like itself')
+        if like in filled or like not in own:
+            return list(way)
+        name = like
+        way[name] = None

@@ -1,30 +1,42 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Triangles from files: STL and OBJ read here, PLY and GLB by trimesh where it is installed."""
-from io import StringIO
+"""Triangles from files: STL, OBJ and PLY read here, glTF by trimesh where it is installed."""
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
 from .checked import FAR, CourseError
+from .gltf_file import Neighbours, checked_gltf
+from .input_file import content
 from .needed import how_to_get
+from .obj_file import obj
 from .physics.ground.mesh import NARROW, widths
+from .ply_file import ply
+from .stl_file import stl
 
-STL_HEAD = 84  # bytes before the triangles: 80 of anything, then their number
-STL_TRIANGLE = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('attribute', '<u2')])
 HINT = f'needs trimesh: {how_to_get("mesh", "trimesh")}'
+TALL = 3.0  # times as high as it is wide: a wall, or ground that lies on its side
 
 
-def read_mesh(path):
-    """Triangles of a mesh file: .stl, .obj, and with trimesh .ply, .glb.
+def read_mesh(path, up=None, scale=1.0):
+    """Triangles of a mesh file: .stl, .obj, .ply, and with trimesh .glb and .gltf.
+
+    Parameters
+    ----------
+    path : path
+    up : 'y', 'z' or None
+        Which axis of the file points up; None: the format's own, y in glTF, else z.
+    scale : float
+        Metres a unit of the file.
 
     Returns
     -------
     vertices : ndarray (n, 3)
-        As they are in the file, which should be metres, z up.
+        Metres, z up.
     faces : ndarray (m, 3) of int
         Numbers of vertices.
     notes : list of str
-        What was put right: a line each.
+        What was put right, or looks wrong: a line each.
 
     Raises
     ------
@@ -32,74 +44,46 @@ def read_mesh(path):
         One line: the file, and why it cannot be used.
     """
     path = Path(path)
+    suffix = path.suffix.lower()
     try:
-        if path.suffix.lower() not in READERS:
+        if suffix not in READERS:
             raise CourseError(f'is no mesh; known: {", ".join(sorted(READERS))}')
-        raw = path.read_bytes()
-        if not raw:
-            raise CourseError('is empty')
-        vertices, faces = READERS[path.suffix.lower()](raw, path)
-        return cleaned(vertices, faces, path.name)
+        raw = content(path)
+        with np.errstate(all='ignore'):  # whatever is not finite is refused
+            vertices, faces, told = READERS[suffix](raw, path)
+            vertices, told = upright(vertices, told, suffix, up)
+            vertices, faces, put_right = cleaned(vertices * scale, faces)
+            return vertices, faces, [f'{path.name}: {note}'
+                                     for note in (*told, *put_right, *lying(vertices, faces, suffix, up))]
+    except MemoryError:
+        raise CourseError(f'{path}: is too large for the memory there is') from None
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
-    except OSError as error:
-        raise CourseError(f'{path}: cannot be read: {error.strerror or error}') from None
 
 
-def stl(raw, path):
-    """Vertices, three a triangle, and faces of an STL file, binary or text."""
-    count = int.from_bytes(raw[80:STL_HEAD], 'little')
-    if len(raw) >= STL_HEAD and len(raw) == STL_HEAD + count * STL_TRIANGLE.itemsize:
-        corners = np.frombuffer(raw, STL_TRIANGLE, count, STL_HEAD)['corners']
-    elif raw.lstrip().startswith(b'solid'):
-        corners = stl_text(raw)
-    else:
-        raise CourseError(f'is no STL file: {len(raw)} bytes do not hold the {count} triangles it tells of')
-    vertices = corners.reshape(-1, 3).astype(float)
-    return vertices, np.arange(len(vertices)).reshape(-1, 3)
+def upright(vertices, notes, suffix, up):
+    """`vertices` with z up, and notes."""
+    if up is None and suffix in Y_UP:
+        notes = [*notes, 'y is up in glTF, so (x, y, z) was read as (x, -z, y); `up: z` would leave it']
+    if own_up(suffix, up) == 'z':
+        return vertices, notes
+    x, y, z = vertices.T
+    return np.stack((x, 0.0 - z, y), 1), notes
 
 
-def stl_text(raw):
-    """Corners (m, 3, 3) of an STL file in text."""
-    words = [line.split()[1:4] for line in raw.splitlines() if line.lstrip().startswith(b'vertex')]
-    try:
-        corners = np.array(words, float).reshape(-1, 3)
-    except ValueError:
-        raise CourseError('is no STL file: a vertex is not three numbers') from None
-    if len(corners) % 3:
-        raise CourseError(f'is no STL file: {len(corners)} vertices make no triangles')
-    return corners.reshape(-1, 3, 3)
+def own_up(suffix, up):
+    """Which axis of the file points up."""
+    return up or ('y' if suffix in Y_UP else 'z')
 
 
-def obj(raw, path):
-    """Vertices and faces of an OBJ file; a face of more corners is a fan of triangles."""
-    text = raw.decode('utf-8', 'replace').replace('\\\n', ' ')
-    lines = text.splitlines()
-    corners = '\n'.join(line[2:] for line in lines if line.startswith('v '))
-    rows = [line[2:] for line in lines if line.startswith('f ')]
-    try:
-        vertices = np.loadtxt(StringIO(corners), ndmin=2) if corners else np.zeros((0, 3))
-        if vertices.shape[1] < 3:
-            raise ValueError
-        return vertices[:, :3], obj_faces(rows, len(vertices))
-    except ValueError:
-        raise CourseError('is no OBJ file: a vertex is not three numbers, or a face not whole ones') from None
-
-
-def obj_faces(rows, vertices):
-    """Triangles, counted from 0, of the lines of faces; a corner is ``vertex/texture/normal``."""
-    if any('/' in row for row in rows):
-        rows = [' '.join(word.partition('/')[0] for word in row.split()) for row in rows]
-    faces = []
-    sizes = np.array([len(row.split()) for row in rows], int)
-    for size in np.unique(sizes):
-        if size < 3:
-            raise ValueError('a face of two corners')
-        same = StringIO('\n'.join(row for row, n in zip(rows, sizes) if n == size))
-        polygons = np.loadtxt(same, int, ndmin=2)
-        polygons = np.where(polygons < 0, vertices + polygons, polygons - 1)  # negative ones count back
-        faces += [polygons[:, (0, k, k + 1)] for k in range(1, size - 1)]
-    return np.concatenate(faces) if faces else np.zeros((0, 3), int)
+def lying(vertices, faces, suffix, up):
+    """A note on a mesh that is much taller than it is wide: perhaps another axis is up."""
+    x, y, z = np.ptp(vertices[faces].reshape(-1, 3), 0)
+    if z <= TALL * min(x, y):
+        return []
+    other = 'z' if own_up(suffix, up) == 'y' else 'y'
+    return [f'is {z:.4g} m high, {x:.4g} m long and {y:.4g} m wide: if it lies on its side, '
+            f'say `up: {other}`']
 
 
 def by_trimesh(raw, path):
@@ -108,17 +92,24 @@ def by_trimesh(raw, path):
         import trimesh
     except ImportError:
         raise CourseError(HINT) from None
+    checked_gltf(raw, path)
     try:
-        found = trimesh.load(path, process=False, force='mesh')
-        return np.asarray(found.vertices, float), np.asarray(found.faces, np.int64)
+        found = trimesh.load(BytesIO(raw), path.suffix[1:].lower(), resolver=Neighbours(path.parent),
+                             process=False, force='mesh', skip_materials=True)
+        return np.asarray(found.vertices, float), np.asarray(found.faces, np.int64), []
+    except CourseError:
+        raise
     except Exception as error:  # whatever a reader of foreign files may say
-        raise CourseError(f'cannot be read by trimesh: {" ".join(str(error).split())}') from None
+        reason = ' '.join(str(error).split()) or type(error).__name__
+        raise CourseError(f'cannot be read by trimesh: {reason}') from None
 
 
-READERS = {'.stl': stl, '.obj': obj, '.ply': by_trimesh, '.glb': by_trimesh}
+Y_UP = ('.glb', '.gltf')
+READERS = {'.stl': lambda raw, path: stl(raw), '.obj': lambda raw, path: obj(raw),
+           '.ply': lambda raw, path: ply(raw), '.glb': by_trimesh, '.gltf': by_trimesh}
 
 
-def cleaned(vertices, faces, name):
+def cleaned(vertices, faces):
     """`vertices` and `faces` without what makes no ground, and notes about it; see `read_mesh`."""
     if len(faces) == 0:
         raise CourseError('has no faces')
@@ -129,15 +120,15 @@ def cleaned(vertices, faces, name):
     notes = []
     first, number = merged(vertices)
     if len(first) < len(vertices):
-        notes.append(f'{name}: {len(vertices) - len(first)} vertices equal to others were merged')
+        notes.append(f'{len(vertices) - len(first)} vertices equal to others were merged')
         vertices, faces = vertices[first], number[faces]
     flat = widths(vertices[faces]) <= NARROW
     if flat.any():
-        notes.append(f'{name}: {flat.sum()} faces without area were dropped')
+        notes.append(f'{flat.sum()} faces without area were dropped')
         faces = faces[~flat]
     kept, _ = merged(np.sort(faces, 1))
     if len(kept) < len(faces):
-        notes.append(f'{name}: {len(faces) - len(kept)} faces that come twice were dropped')
+        notes.append(f'{len(faces) - len(kept)} faces that come twice were dropped')
         faces = faces[np.sort(kept)]
     if len(faces) == 0:
         raise CourseError('has no face with an area')

@@ -2,7 +2,8 @@
 """How to get a library that only some tools need, told where it is missed."""
 
 # What apt has, on Ubuntu from 22.04 and Debian from 12; rosdep installs it with the rest of package.xml.
-APT = {'matplotlib': 'python3-matplotlib', 'scipy': 'python3-scipy', 'tqdm': 'python3-tqdm'}
+APT = {'matplotlib': 'python3-matplotlib', 'scipy': 'python3-scipy', 'tqdm': 'python3-tqdm',
+       'rasterio': 'python3-rasterio'}
 
 
 def how_to_get(extra, *libraries):

@@ -4,19 +4,51 @@ from math import ceil, sqrt
 
 import numpy as np
 
+from .physics.ground.zone import zones_of
 from .slabs import sides, triangles
 
+FEW = 20  # zones on a tile; fewer on all of a surface are drawn at once
 MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
 
 
 def flat(outline, cuts, material, zones):
     """Pairs of a material and its triangles of (x, y): `outline` without `cuts`, painted with `zones`."""
-    found = [(material, triangles(outline, [*cuts, *(polygon for _, polygon in zones)]))]
-    for number, (paint, polygon) in enumerate(zones):
-        later = [over for _, over in zones[number + 1:]]
-        hiding = [cut for cut in (*cuts, *later) if boxes_meet(cut, polygon)]
-        found.append((paint, triangles(polygon, hiding, outline)))
+    zones = zones_of(zones)
+    near = Boxes([zone.polygon for zone in zones])
+    base = []
+    for tile in tiles(outline, len(zones)):
+        base += triangles(tile, cuts, outline, [(zones[i].polygon, zones[i].cut) for i in near.to(tile)])
+    found = [(material, base)]
+    for number, (paint, polygon, own) in enumerate(zones):
+        later = [(zones[i].polygon, zones[i].cut) for i in near.to(polygon, number + 1)]
+        hiding = [cut for cut in (*cuts, *own) if boxes_meet(cut, polygon)]
+        found.append((paint, triangles(polygon, hiding, outline, later)))
     return found
+
+
+def tiles(outline, count):
+    """Rectangles that cover `outline`, so small that of `count` polygons over it a few lie in each."""
+    n = ceil(sqrt(count / FEW))
+    if n <= 1:
+        return [outline]
+    x, y = (np.linspace(low, high, n + 1).tolist()
+            for low, high in zip(np.min(outline, 0), np.max(outline, 0)))
+    return [((x[i], y[k]), (x[i + 1], y[k]), (x[i + 1], y[k + 1]), (x[i], y[k + 1]))
+            for i in range(n) for k in range(n)]
+
+
+class Boxes:
+    """Upright rectangles around `polygons`."""
+
+    def __init__(self, polygons):
+        self.low = np.array([np.min(polygon, 0) for polygon in polygons]).reshape(-1, 2)
+        self.high = np.array([np.max(polygon, 0) for polygon in polygons]).reshape(-1, 2)
+
+    def to(self, polygon, first=0):
+        """Numbers, from `first` on, of those that meet the rectangle around `polygon`."""
+        low, high = np.min(polygon, 0), np.max(polygon, 0)
+        near = (low <= self.high[first:]).all(1) & (self.low[first:] <= high).all(1)
+        return (first + np.flatnonzero(near)).tolist()
 
 
 def boxes_meet(one, other):
@@ -36,9 +68,16 @@ def curved(corners, material, zones):
 def last_zone(zones, x, y):
     """Number of the last of `zones` that holds each place; -1 where there is none."""
     numbers = np.full(len(x), -1)
-    for number, (_, polygon) in enumerate(zones):
-        numbers[holds(polygon, x, y)] = number
+    for number, zone in enumerate(zones_of(zones)):
+        (left, front), (right, back) = np.min(zone.polygon, 0), np.max(zone.polygon, 0)
+        near = np.flatnonzero((left <= x) & (x <= right) & (front <= y) & (y <= back))
+        numbers[near[in_region(zone.polygon, zone.cut, x[near], y[near])]] = number
     return numbers
+
+
+def in_region(polygon, cuts, x, y):
+    """Whether `polygon`, without `cuts`, holds each place."""
+    return holds(polygon, x, y) & ~np.any([holds(cut, x, y) for cut in cuts], axis=0)
 
 
 def holds(polygon, x, y):

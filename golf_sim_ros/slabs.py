@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A polygon with holes, cut into triangles."""
+from collections import Counter
 from math import isclose
 
 
-def triangles(outline, cuts=(), window=None):
+def triangles(outline, cuts=(), window=None, regions=()):
     """Triangles, tuples of three (x, y) counterclockwise, that cover `outline` except for `cuts`.
 
-    With a `window`, only what lies in that polygon, too.
+    With a `window`, only what lies in that polygon, too. `regions` are cuts with holes: pairs of an outline
+    and a sequence of polygons.
 
     The plane is sliced into slabs at the y of every corner and crossing. Within a slab no two edges
     cross, so the pieces between neighbouring edges are trapezoids, each all inside or all outside::
@@ -17,16 +19,50 @@ def triangles(outline, cuts=(), window=None):
 
     Polygons are tuples of (x, y) in either direction; they may be concave and overlap each other.
     """
-    kept, gone = [tuple(outline), *([tuple(window)] if window else [])], [tuple(cut) for cut in cuts]
-    edges = [edge for polygon in (*kept, *gone) for edge in sides(polygon)]
-    levels = sorted({y for a, b in edges for y in (a[1], b[1])} | set(crossings(edges)))
+    state = Inside([outline, *([window] if window else [])],
+                   [*((cut, ()) for cut in cuts), *((cut, holes) for cut, holes in regions)])
+    edges = [(*upward(edge), owner) for owner, polygon in enumerate(state.polygons)
+             for edge in sides(polygon) if edge[0][1] != edge[1][1]]
+    levels = sorted({y for polygon in state.polygons for _, y in polygon} | set(crossings(edges)))
     found = []
-    for low, high in zip(levels, levels[1:]):
-        for piece in trapezoids(edges, low, high):
-            place = middle(piece)
-            if all(inside(place, p) for p in kept) and not any(inside(place, p) for p in gone):
-                found.extend(halves(piece))
+    for low, high, through in slabs(edges, levels):
+        for piece in state.kept_of(through):
+            (a, d), (b, c) = piece
+            found.extend(halves((a, low), (b, low), (c, high), (d, high)))
     return found
+
+
+class Inside:
+    """Which polygons a place is in, on its way from left to right through a slab.
+
+    `kept`: polygons that it must be in; `gone`: pairs of a polygon and its holes, in none of which it may be.
+    """
+
+    def __init__(self, kept, gone):
+        self.kept = len(kept)
+        self.polygons = [tuple(polygon) for polygon in kept]
+        self.region = [None] * self.kept  # of each polygon, the number of the pair it belongs to
+        for number, (cut, holes) in enumerate(gone):
+            self.polygons += [tuple(cut), *(tuple(hole) for hole in holes)]
+            self.region += [number] * (1 + len(holes))
+        self.first = {number: owner for owner, number in reversed(list(enumerate(self.region)))}
+
+    def kept_of(self, through):
+        """Pairs of neighbouring edges of a slab, between which it is kept: x at its low, at its high end."""
+        odd, holes, covered, kept = set(), Counter(), set(), 0
+        for (_, *left, owner), (_, *right, _) in zip(through, through[1:]):
+            odd ^= {owner}
+            step, number = (1 if owner in odd else -1), self.region[owner]
+            if number is None:
+                kept += step
+            elif owner != self.first[number]:
+                holes[number] += step
+            if number is not None:
+                covers = self.first[number] in odd and holes[number] == 0
+                (covered.add if covers else covered.discard)(number)
+            if kept == self.kept and not covered and not isclose(
+                    sum(left), sum(right), rel_tol=1e-12, abs_tol=2e-12):
+                yield left, right
 
 
 def sides(polygon):
@@ -34,10 +70,21 @@ def sides(polygon):
     return list(zip(polygon, polygon[1:] + polygon[:1]))
 
 
+def upward(edge):
+    """`edge` from its lower to its upper end."""
+    return edge if edge[0][1] < edge[1][1] else edge[::-1]
+
+
 def crossings(edges):
-    """The y at which two of `edges` cross."""
-    for i, (a, b) in enumerate(edges):
-        for c, d in edges[:i]:
+    """The y at which two of `edges`, from low to high, cross."""
+    active = []
+    for edge in sorted(edges, key=lambda edge: edge[0][1]):
+        a, b, _ = edge
+        active = [other for other in active if other[1][1] > a[1]]
+        left, right = min(a[0], b[0]), max(a[0], b[0])
+        for c, d, _ in active:
+            if max(c[0], d[0]) < left or min(c[0], d[0]) > right:
+                continue
             bend = (b[0] - a[0]) * (d[1] - c[1]) - (b[1] - a[1]) * (d[0] - c[0])
             if bend == 0.0:
                 continue
@@ -45,38 +92,30 @@ def crossings(edges):
             other = ((c[0] - a[0]) * (b[1] - a[1]) - (c[1] - a[1]) * (b[0] - a[0])) / bend
             if 0.0 < part < 1.0 and 0.0 < other < 1.0:
                 yield a[1] + part * (b[1] - a[1])
+        active.append(edge)
 
 
-def trapezoids(edges, low, high):
-    """Pieces of the slab from `low` to `high` between neighbours of the `edges` that pass through it.
+def slabs(edges, levels):
+    """Each slab between two neighbours of `levels`, and the edges through it from left to right.
 
-    A piece is (left at low, right at low, right at high, left at high).
+    An edge is (x in the middle of the slab, x at its low end, x at its high end, owner).
     """
-    through = sorted((at(edge, 0.5 * (low + high)), at(edge, low), at(edge, high)) for edge in edges
-                     if min(edge[0][1], edge[1][1]) <= low and max(edge[0][1], edge[1][1]) >= high)
-    for (left, *a), (right, *b) in zip(through, through[1:]):
-        if not isclose(left, right, rel_tol=1e-12, abs_tol=1e-12):
-            yield (a[0], low), (b[0], low), (b[1], high), (a[1], high)
+    begin, waiting, active = 0, sorted(edges, key=lambda edge: edge[0][1]), []
+    for low, high in zip(levels, levels[1:]):
+        while begin < len(waiting) and waiting[begin][0][1] <= low:
+            active.append(waiting[begin])
+            begin += 1
+        active = [edge for edge in active if edge[1][1] >= high]
+        yield low, high, sorted((at(edge, 0.5 * (low + high)), at(edge, low), at(edge, high), edge[2])
+                                for edge in active)
 
 
 def at(edge, y):
     """The x of `edge` at `y`."""
-    (x0, y0), (x1, y1) = edge
+    (x0, y0), (x1, y1), *_ = edge
     return x0 + (x1 - x0) * (y - y0) / (y1 - y0)
 
 
-def middle(piece):
-    """Mean of the corners."""
-    return sum(x for x, _ in piece) / len(piece), sum(y for _, y in piece) / len(piece)
-
-
-def inside(point, polygon):
-    """Whether `point` lies in `polygon`: a ray to the right leaves it an odd number of times."""
-    x, y = point
-    return sum((a[1] > y) != (b[1] > y) and x < at((a, b), y) for a, b in sides(polygon)) % 2 == 1
-
-
-def halves(piece):
+def halves(a, b, c, d):
     """The two triangles of a trapezoid, or the one that is left where a side has no length."""
-    a, b, c, d = piece
     return [corners for corners in ((a, b, c), (a, c, d)) if len(set(corners)) == 3]

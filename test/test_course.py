@@ -51,7 +51,7 @@ def complaint(write):
         with pytest.raises(CourseError) as caught:
             load_course(path)
         said = str(caught.value)
-        assert said.startswith(f'{path}: ') and said.isprintable() and len(said) < 600
+        assert said.startswith(f'{path}: ') and said.isprintable() and len(said) <= 300
         return said[len(f'{path}: '):]
     return complaint
 
@@ -133,6 +133,16 @@ def test_a_material_is_like_another_but_for_what_it_says_itself(load):
     assert green.rolling_resistance == pytest.approx(5.494 / 10 / 9.80665, rel=1e-4)
 
 
+def test_a_thousand_materials_may_be_like_each_other_in_a_row(load):
+    names = [f'm{i}' for i in range(1000)]
+    section = ', '.join(f'{name}: {{like: {like}}}' for name, like in zip(names, names[1:]))
+    course = load(f'format: 1\nmaterials: {{{section}, m999: {{like: green, stimp: 12}}, empty: {{}}, '
+                  'a: {like: empty}}\nground: [{shape: plane, material: m0}]\n')
+    plain = load('format: 1\nmaterials: {m0: {like: green, stimp: 12}}\n'
+                 'ground: [{shape: plane, material: m0}]')
+    assert course.ground == plain.ground
+
+
 def test_a_shipped_material_can_be_changed_with_or_without_naming_itself(load):
     plain = materials_of(load, '{sand: {}}')['sand']
     for section in '{sand: {softness: 0.3}}', '{sand: {like: sand, softness: 0.3}}':
@@ -200,8 +210,9 @@ obstacles:
     trunk, crown = course.obstacles
     assert trunk == Cylinder((60.0, 12.0, 0.0), 0.3, 8.0, trunk.material) and trunk.material.name == 'wood'
     assert crown == Sphere((60.0, 12.0, 9.0), 2.5, crown.material) and crown.material.drag > 0
-    (material, outline), = course.zones
+    (material, outline, cut), = course.zones
     assert material.name == 'green' and outline == ((3.0, 0.0), (5.0, 0.0), (5.0, 2.0))
+    assert cut == ()
     assert physics.ground_height(course, 4.5, 0.5)[1] == 'green'
 
 
@@ -269,9 +280,25 @@ obstacles:
     ('ball: {mass: 1', 'line 4: is not valid YAML: '),
     ('ball: *here', 'line 3: is not valid YAML: '),
     ('name: !!python/object:os.system x', 'line 3: is not valid YAML: '),
-    ('name: 2026-13-45', 'is not valid YAML: month must be in 1..12'),
+    ('name: 2026-13-45', "line 3: is not valid YAML: '2026-13-45' is no timestamp: month must be in 1..12"),
     ('? [a, {b: c}]\n: 1', 'is not valid YAML: '),
     ('name: ' + 5000 * '[', 'is not valid YAML'),
+    ('flagstick: !!bool x', "line 3: is not valid YAML: 'x' is no bool"),
+    ('name: !!timestamp x', "line 3: is not valid YAML: 'x' is no timestamp"),
+    ('tee: [!!int , 0]', "line 3: is not valid YAML: '' is no int"),
+    ('tee: [!!float "", 0]', "line 3: is not valid YAML: '' is no float"),
+    ('tee: [!!int 0b, 0]', "line 3: is not valid YAML: '0b' is no int"),
+    ('tee: [!!float ' + ':'.join(3000 * '1') + ', 0]', 'is no float'),
+    ('tee: [' + ':'.join(3000 * '1') + ', 0]', "must be a number from -1e+06 to 1e+06"),
+    ('tee: [1:30, 0]', "tee[0] '1:30' must be a number"),
+    ('tee: [' + 100_000 * '1' + 'e, 0]', 'must be a number'),
+    ('name: &a [*a]', 'is too large: its aliases make'),
+    ('ball: &a {mass: *a}', 'is too large: its aliases make'),
+    ('zones: &z [[0, 0], [1, 0]]\n' + '\n'.join(f'{c}: &{c} [{", ".join(10 * [f"*{b}"])}]'
+                                                for b, c in zip('zabcdefg', 'abcdefgh')), 'aliases make'),
+    ('"k\\0\\nx": 1', "key 'k\\x00\\nx' is unknown"),
+    (300 * 'k' + ': 1', 'known: air, ball, bounds'),
+    ('effects: [' + ', '.join(300 * ['gravitation']) + ', 7]', "effects[0] 'gravitation' is unknown; "),
 ])
 def test_a_wrong_line_is_named(complaint, line, said):
     assert said in complaint(PLAIN + line)
@@ -288,6 +315,9 @@ def test_a_wrong_line_is_named(complaint, line, said):
     ('{a: {like: b}, b: {like: c}, c: {like: a}}',
      "materials.c.like 'a' leads back to itself: a -> b -> c -> a; a material may not be like itself"),
     ('{a: {like: b}, b: {like: c}, c: {like: b}}', "leads back to itself: a -> b -> c -> b;"),
+    ('{' + ', '.join(f'm{i}: {{like: m{(i + 1) % 1000}}}' for i in range(1000)) + '}',
+     "materials.m999.like 'm0' leads back to itself: m0 -> m1"),
+    ('{' + ', '.join(f'm{i}: {{}}' for i in range(1000)) + ', a: {like: m7x}}', "did you mean 'm7"),
     ('{a: {stimp: 10, rolling_resistance: 0.1}}',
      'materials.a has both stimp and rolling_resistance; one is allowed'),
     ('{a: {stimp: 0}}', 'materials.a.stimp 0 must be a number from 0.1 to 100'),
@@ -318,7 +348,7 @@ def test_a_wrong_material_is_named(complaint, section, said):
      "ground[0].shape 'plan' is unknown; known: heightmap, mesh, patch, plane; did you mean 'plane'?"),
     ('{shape: mesh, material: rough}', "ground[0]: key 'file' is missing; needed: file, material"),
     ('{shape: mesh, file: a.stl, material: rough}', 'a.stl: cannot be read: No such file or directory'),
-    ('{shape: mesh, file: links.yaml, material: rough}', 'is no mesh; known: .glb, .obj, .ply, .stl'),
+    ('{shape: mesh, file: links.yaml, material: rough}', 'is no mesh; known: .glb, .gltf, .obj, .ply, .stl'),
     ('{shape: plane, material: gras}', f"material 'gras' is unknown; known: {KNOWN}"),
     ('{shape: plane, material: 1}', 'ground[0].material 1 is unknown'),
     ('{shape: plane}', "ground[0]: key 'material' is missing; needed: material"),
@@ -343,7 +373,8 @@ def test_a_wrong_shape_is_named(complaint, shape, said):
 
 
 @pytest.mark.parametrize('content, said', [
-    ('', 'the file nothing must be a mapping'),
+    ('', 'is empty'),
+    ('# nothing', 'the file nothing must be a mapping'),
     ('- 1', 'the file [1] must be a mapping'),
     ('ground: []', "key 'format' is missing; needed: format, ground"),
     ('format: 1', "key 'ground' is missing; needed: format, ground"),
@@ -373,7 +404,7 @@ def test_a_tee_over_a_pit_without_a_floor_has_no_ground(complaint):
     assert said == 'tee [0.0, 0.0] must be above some ground, and there is none'
 
 
-@pytest.mark.parametrize('name', ['golf_without_freinds', '', '.', 'courses/links', '\0'])
+@pytest.mark.parametrize('name', ['golf_without_freinds', '', '.', 'courses/links', '\0', 'é' * 400])
 def test_an_unknown_course_is_told_the_known_ones(name):
     with pytest.raises(CourseError, match='is unknown; known: golf_without_friends') as caught:
         load_course(name)
@@ -386,6 +417,62 @@ def test_a_missing_file_and_a_folder_are_named(tmp_path):
     (tmp_path / 'folder.yaml').mkdir()
     with pytest.raises(CourseError, match='folder.yaml: cannot be read: Is a directory'):
         load_course(str(tmp_path / 'folder.yaml'))
+
+
+@pytest.fixture
+def special(tmp_path):
+    """What is no file: by name, what it is, and its path."""
+    os.mkfifo(tmp_path / 'fifo')
+    for name in ('fifo.yaml', 'fifo.stl', 'fifo.npy'):
+        (tmp_path / name).symlink_to(tmp_path / 'fifo')
+    for name in ('zero.yaml', 'zero.obj', 'zero.tif'):
+        (tmp_path / name).symlink_to('/dev/zero')
+    return tmp_path
+
+
+@pytest.mark.parametrize('name, said', [('fifo.yaml', 'a FIFO'), ('zero.yaml', 'a device')])
+def test_a_course_that_is_no_regular_file_is_refused(special, name, said):
+    with pytest.raises(CourseError, match=f'{name}: is {said}, and must be a regular file'):
+        load_course(special / name)
+
+
+@pytest.mark.parametrize('entry, said', [
+    ('shape: mesh, file: fifo.stl', 'file fifo.stl: is a FIFO'),
+    ('shape: mesh, file: zero.obj', 'file zero.obj: is a device'),
+    ('shape: mesh, file: ~nobody_at_all/x.stl', '~nobody_at_all/x.stl: cannot be read: Could not determine'),
+    ('shape: heightmap, spacing: 1, heights: fifo.npy', 'heights fifo.npy: is a FIFO'),
+    ('shape: heightmap, heights: zero.tif', 'heights zero.tif: is a device'),
+    ('shape: heightmap, heights: ~nobody_at_all/x.tif', 'x.tif: cannot be read: Could not determine')])
+def test_what_a_course_calls_for_must_be_a_regular_file(special, complaint, entry, said):
+    assert said in complaint(f'format: 1\nground: [{{material: rough, {entry}}}]\n')
+
+
+def test_a_home_that_nobody_has_is_told():
+    with pytest.raises(CourseError, match='~nobody_at_all/x.yaml: cannot be read'):
+        load_course('~nobody_at_all/x.yaml')
+
+
+def test_a_message_is_cut_in_its_middle_and_ends_with_what_is_allowed(write, tmp_path):
+    folder = tmp_path / ('a' * 200) / ('b' * 200)
+    folder.mkdir(parents=True)
+    path = folder / 'links.yaml'
+    path.write_text(PLAIN + 'tee: [x, 0]')
+    with pytest.raises(CourseError) as caught:
+        load_course(path)
+    assert len(str(caught.value)) <= 300 and str(caught.value).startswith(str(tmp_path))
+    assert str(caught.value).endswith("tee[0] 'x' must be a number from -1e+06 to 1e+06")
+
+
+@pytest.mark.filterwarnings('error')
+@pytest.mark.parametrize('entry, raw', [
+    ('shape: mesh, file: a.stl', b'\0' * 80 + b'\1\0\0\0' + b'\xff\x7f\xa1\x7f' * 13),
+    ('shape: mesh, file: a.obj', b'v 1e300 1e300 0\nv -1e300 1e308 0\nv 1e308 0 0\nv 0 1 1\nf 1 2 3 4\n'),
+    ('shape: mesh, file: a.ply', b'ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nend_header\n'),
+    ('shape: heightmap, spacing: 1, heights: a.npy', b'\x93NUMPY\1\0F\0'
+     + b"{'descr': '<f8', 'fortran_order': False, 'shape': (2L, 2L), }".ljust(69) + b'\n' + b'\xff' * 32)])
+def test_numpy_warns_of_nothing_beside_a_refusal(complaint, tmp_path, entry, raw):
+    (tmp_path / entry.rpartition(' ')[2]).write_bytes(raw)
+    assert complaint(f'format: 1\nground: [{{material: rough, {entry}}}]\n')
 
 
 WHOLE = yaml.safe_load('''

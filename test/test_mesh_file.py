@@ -4,8 +4,9 @@ import sys
 
 from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
-from golf_sim_ros.mesh_file import STL_TRIANGLE, outward, read_mesh
+from golf_sim_ros.mesh_file import outward, read_mesh
 from golf_sim_ros.physics import ground_height
+from golf_sim_ros.stl_file import STL_TRIANGLE
 import numpy as np
 import pytest
 
@@ -54,19 +55,19 @@ def test_a_square_is_read(read, name, raw):
     assert notes == (told if name.lower().endswith('stl') else [])
 
 
-@pytest.mark.parametrize('suffix', ['ply', 'glb'])
-def test_other_formats_are_read_by_trimesh(suffix, tmp_path):
+@pytest.mark.parametrize('suffix', ['ply', 'glb', 'obj', 'stl'])
+def test_what_trimesh_writes_is_read(suffix, tmp_path):
     trimesh = pytest.importorskip('trimesh')
     trimesh.Trimesh(CORNERS, TETRAHEDRON, process=False).export(tmp_path / f'a.{suffix}')
-    vertices, faces, _ = read_mesh(tmp_path / f'a.{suffix}')
+    vertices, faces, _ = read_mesh(tmp_path / f'a.{suffix}', up='z')
     found = np.sort(vertices[faces].sum(1), 0)
     np.testing.assert_allclose(found, np.sort(CORNERS[TETRAHEDRON].sum(1), 0), atol=1e-6)
 
 
 def test_without_trimesh_the_way_to_it_is_told(read, monkeypatch):
     monkeypatch.setitem(sys.modules, 'trimesh', None)
-    with pytest.raises(CourseError, match=r"a\.ply: needs trimesh: pip install 'golf_sim_ros\[mesh\]'"):
-        read('a.ply', 'ply\n')
+    with pytest.raises(CourseError, match=r"a\.glb: needs trimesh: pip install 'golf_sim_ros\[mesh\]'"):
+        read('a.glb', 'glTF')
 
 
 def test_faces_without_area_and_repeated_ones_are_dropped_and_told(read):
@@ -98,7 +99,7 @@ def test_faces_without_area_and_repeated_ones_are_dropped_and_told(read):
     ('a.obj', OBJ + 'f 1 2\n', 'is no OBJ file'),
     ('a.obj', OBJ + 'f 1 2 x\n', 'is no OBJ file'),
     ('a.obj', 'v 1 2\nf 1 1 1\n', 'is no OBJ file'),
-    ('a.step', b'1', 'is no mesh; known: .glb, .obj, .ply, .stl'),
+    ('a.step', b'1', 'is no mesh; known: .glb, .gltf, .obj, .ply, .stl'),
 ])
 def test_a_broken_file_is_refused_in_one_line(read, name, raw, said):
     with pytest.raises(CourseError) as caught:

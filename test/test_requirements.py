@@ -28,11 +28,12 @@ STARTED = ('rviz2',)                    # by the launch file, not imported
 # What apt has not: where it is imported, and only when it is needed; the extra of pip that brings it.
 # llvmlite is numba's own compiler and comes with it.
 BY_PIP = {
-    'numba': ('fast', 'numba', ('golf_sim_ros/physics/_compile.py', 'golf_sim_ros/physics/jit/')),
-    'llvmlite': ('fast', 'numba', ('golf_sim_ros/physics/_compile.py', 'golf_sim_ros/physics/jit/',
-                                   'golf_sim_ros/journal.py')),
-    'rosbags': ('bag', 'rosbags', ('golf_sim_ros/bag.py', 'golf_sim_ros/tools/bag_writer.py')),
+    'numba': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
+    'llvmlite': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
+    'rosbags': ('bag', 'rosbags', ('golf_sim_ros/bag.py', 'golf_sim_ros/bag_file.py',
+                                   'golf_sim_ros/tools/bag_writer.py')),
     'trimesh': ('mesh', 'trimesh', ('golf_sim_ros/mesh_file.py',)),
+    'rasterio': ('terrain', 'rasterio', ('golf_sim_ros/terrain_file.py',)),
 }
 # Every apt key here is one of rosdep's, for apt, in rosdistro's python.yaml, with no exception for a release.
 NO_APT_KEY = ('python3-numba', 'python3-rosbags-pip', 'python3-trimesh-pip')

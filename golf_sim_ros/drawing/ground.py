@@ -2,7 +2,7 @@
 """The course under a play: from above, and cut open along the paths."""
 import numpy as np
 
-from ..painted import holds
+from ..painted import in_region
 from ..physics.model import materials
 from .relief import grid_relief, relief
 
@@ -48,7 +48,8 @@ def flooded(colors, course, heights, x, y):
     """`colors` (ny, nx, 3) of a ground with `heights` (ny, nx) over `x`, `y`, blue where water covers it."""
     x, y = np.meshgrid(x, y)
     for pond in course.water:
-        wet = holds(pond.polygon, x.ravel(), y.ravel()).reshape(x.shape) & (heights < pond.level)
+        over = in_region(pond.polygon, pond.cut, x.ravel(), y.ravel()).reshape(x.shape)
+        wet = over & (heights < pond.level)
         colors[wet] = CLEAR * colors[wet] + (1.0 - CLEAR) * np.array(WATER)
     return colors
 

@@ -13,6 +13,7 @@ from .ground.patch import Patch
 from .ground.plane import Plane
 from .ground.solid import Cylinder, Sphere
 from .ground.water import Water
+from .ground.zone import Zone
 from .integrators import METHODS
 from .jit import Unavailable as EngineUnavailable
 from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
@@ -26,6 +27,6 @@ __all__ = [
     'ENGINES', 'EngineUnavailable', 'Heightmap',
     'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
     'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile',
-    'Water', 'World', 'check_hole', 'cycles_now',
+    'Water', 'World', 'Zone', 'check_hole', 'cycles_now',
     'ground_height', 'register_effect', 'rolling_resistance_of_stimp',
     'simulate', 'simulate_many', 'standard_atmosphere']

@@ -40,8 +40,8 @@ class Course(NamedTuple):
         Of the hole's bottom, and of the flagstick; rim and wall are of the ground around.
     bounds : tuple of (float, float), or None
         Corners of the polygon that a ball on the ground may not leave.
-    zones : tuple of (Material, tuple of (float, float))
-        Polygons that repaint the ground from above, later over earlier.
+    zones : tuple of Zone
+        Polygons that repaint the ground from above, later over earlier; pairs (Material, polygon) will do.
     obstacles : tuple
         Shapes that stand on the ground and are none: hard, or leaves where the material has a drag.
     water : tuple of Water

@@ -6,7 +6,7 @@ still fail.
 """
 from .jit import kernel, shared
 from .detect import MOST_STEPS, TANGENTIAL, TOUCH, safe_advance
-from .ground.polygon import beside
+from .ground.polygon import beside_region
 from .path import greatest_acceleration, least_acceleration, position, span_along, velocity
 from .vector import length
 
@@ -37,7 +37,7 @@ def dip(waters, i, ball, until):
     for _ in range(MOST_STEPS):
         place = position(ball, time)
         sure = max(still_above(place[2] - waters.levels[i], velocity(ball, time)[2], falling),
-                   still_beside(beside(waters.outlines, i, place[0], place[1]),
+                   still_beside(beside_region(waters.outlines, i, place[0], place[1]),
                                 length(velocity(ball, time)), bend))
         if sure <= 0.0:
             return time, True

@@ -56,7 +56,7 @@ def material_names(course):
 def materials(course):
     """Materials of a course, in the order of their numbers."""
     return tuple(dict.fromkeys([*(shape.material for shape in shapes(course)),
-                                *(material for material, _ in course.zones),
+                                *(zone[0] for zone in course.zones),
                                 *((course.cup, course.stick) if course.hole else ())]))
 
 

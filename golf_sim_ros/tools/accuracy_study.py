@@ -6,11 +6,13 @@ import sys
 
 from ..needed import how_to_get
 from ..physics.engine import prefer_compiled
+from .pipes import in_pipes
 
 LIBRARIES = 'scipy', 'matplotlib', 'tqdm'
 NEEDED = f'accuracy_study needs {", ".join(LIBRARIES)}: {how_to_get("study", *LIBRARIES)}'
 
 
+@in_pipes
 def main(args=None):
     """Run the study; return the exit code."""
     prefer_compiled()

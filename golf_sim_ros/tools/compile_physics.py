@@ -7,6 +7,7 @@ from ..course import CourseError, load_course
 from ..physics import World
 from ..physics.jit import cache
 from ..physics.jit.build import Build, READY
+from .pipes import in_pipes
 
 EPILOG = """One program serves every course with one ball, another every course with several. They are
 kept in a folder of their own for each version of the physics; GOLF_SIM_ROS_CACHE names its parent. The exit
@@ -16,6 +17,7 @@ BAR = '{percentage:3.0f} % |{bar}| {remaining} left'
 LOOK = 0.2  # s between two looks
 
 
+@in_pipes
 def main(args=None):
     """Compile what is not compiled; return the exit code."""
     options = parser().parse_args(args)

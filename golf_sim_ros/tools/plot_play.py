@@ -7,6 +7,7 @@ from ..bag import BagError, read_bag
 from ..course import CourseError, load_course
 from ..needed import how_to_get
 from ..replay import course_of
+from .pipes import in_pipes
 
 NEEDED = f'plot_play needs matplotlib: {how_to_get("plot", "matplotlib")}'
 
@@ -15,6 +16,7 @@ class NoPicture(RuntimeError):
     """There is nothing to draw, and one line says why."""
 
 
+@in_pipes
 def main(args=None):
     """Draw the play of a bag; return the exit code."""
     options = parser().parse_args(args)
@@ -34,7 +36,7 @@ def main(args=None):
 def parser():
     """Reader of the command line."""
     reader = argparse.ArgumentParser(prog='plot_play', description=__doc__)
-    reader.add_argument('bag', help='folder of a rosbag2 bag, MCAP or sqlite3')
+    reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
     reader.add_argument('-o', '--output', default='play.png', metavar='FILE',
                         help='picture to write: .png, .svg or .pdf (%(default)s)')
     reader.add_argument('--shots', type=int, nargs='+', metavar='N', help='only these, by their numbers')

@@ -17,6 +17,7 @@ from ..environment import complete_environment
 from ..journal import JournalError, opened
 from ..spinning import Ending, EventsExecutor
 from .bag_writer import BagWriter, CannotRecord
+from .pipes import in_pipes, say
 from .play_topics import OF_SIM, of_ball
 
 STORAGES = ('mcap', 'sqlite3')
@@ -57,7 +58,7 @@ class Recorder(Node):
         self.balls += new
         if new:
             namespace = self.get_namespace()
-            print(f'recording {", ".join(new)} of {namespace} to {self.bag.path}; Ctrl-C ends it', flush=True)
+            say(f'recording {", ".join(new)} of {namespace} to {self.bag.path}; Ctrl-C ends it')
 
     def on_message(self, topic, data):
         """Write one message; the journal also tells which balls there are."""
@@ -117,6 +118,7 @@ def parser():
     return reader
 
 
+@in_pipes
 def main(args=None):
     """Record until told to stop; return the exit code."""
     args = sys.argv if args is None else args
@@ -138,13 +140,13 @@ def recorded(options, ending):
     """Record one bag; return the exit code."""
     bag = BagWriter(options.output, options.storage)
     recorder = Recorder(bag, options.namespace, options.balls)
-    print(f'waiting for a sim in {recorder.get_namespace()}', flush=True)
+    say(f'waiting for a sim in {recorder.get_namespace()}')
     try:
         record(recorder, ending)
     finally:
         recorder.complete()
         recorder.destroy_node()
-    print(f'{bag.count} messages in {bag.path}', flush=True)
+    say(f'{bag.count} messages in {bag.path}')
     return 0
 
 

@@ -10,6 +10,7 @@ from ..journal import made_with
 from ..physics import ACCURACY
 from ..physics.jit.build import READY
 from ..replay import CLOSE, difference, engine_of, rerun, shots, tick_of, timed, world_of
+from .pipes import in_pipes
 
 EPILOG = """Each shot is run by the engine that played it: the same bits. Where the compiled engine is missing
 here, plain Python takes its place, and has to agree to 1e-9. The exit code is 0 when every shot is the same,
@@ -17,6 +18,7 @@ here, plain Python takes its place, and has to agree to 1e-9. The exit code is 0
 SHORT_WAIT = 5.0  # s: what is compiled is loaded by then
 
 
+@in_pipes
 def main(args=None):
     """Run a bag's play again; return the exit code."""
     options = parser().parse_args(args)
@@ -35,7 +37,7 @@ def main(args=None):
 def parser():
     """Reader of the command line."""
     reader = argparse.ArgumentParser(prog='resimulate', description=__doc__, epilog=EPILOG)
-    reader.add_argument('bag', help='folder of a rosbag2 bag, MCAP or sqlite3')
+    reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
     reader.add_argument('--accuracy', choices=list(ACCURACY), help='also play every shot at this accuracy')
     reader.add_argument('--course', help='name or path of the course, if it is not where it was')
     return reader

@@ -10,6 +10,7 @@ from rclpy.utilities import remove_ros_args
 from ..environment import complete_environment
 from ..spinning import Ending
 from .launch_monitor import Launch, parted, velocity_and_spin
+from .pipes import in_pipes
 from .player import NoShot, Player
 from .result_table import result_table
 from .shoot_arguments import parser
@@ -124,6 +125,7 @@ def shoot(player, options, launch):
     print('\n' + result_table(player.strike(velocity, spin), units))
 
 
+@in_pipes
 def main(args=None):
     """Hit the shot on the command line; return the exit code."""
     ending = Ending()

@@ -296,6 +296,8 @@ def test_heights_that_are_none_are_refused_in_one_line(tmp_path, heights, said):
 
 @pytest.mark.parametrize('content, said', [
     (b'heights', 'is no .npy file'), (b'\x93NUMPY\x01\x00', 'no .npy file that can be read'),
+    (b"\x93NUMPY\x01\x00F\x00{'descr': '<f8', 'fortran_order': False, 'shape': (99999, 99999), }   \n",
+     'it tells of (99999, 99999) numbers, and ends'),
     (None, 'cannot be read')])
 def test_a_broken_file_of_heights_is_refused_in_one_line(tmp_path, content, said):
     path = saved(tmp_path, np.zeros((2, 2)))

@@ -14,8 +14,9 @@ from golf_sim_ros.messages import header
 from golf_sim_ros.physics import (Course, Cylinder, ground_height, Heightmap, Material, Patch, Plane, Sphere,
                                   Water, World)
 from golf_sim_ros.physics.ground.cup import DEPTH
+from golf_sim_ros.painted import holds
 from golf_sim_ros.play_markers import CONTACTS, Scene, Trail, TRAIL
-from golf_sim_ros.slabs import inside, triangles
+from golf_sim_ros.slabs import triangles
 
 GRASS, SAND = Material('grass', color=(0.1, 0.5, 0.1)), Material('sand', color=(0.9, 0.8, 0.6))
 SQUARE = ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))
@@ -50,7 +51,8 @@ def surfaces(array):
 
 
 def covers(pieces, x, y):
-    return any(inside((x, y), [corner[:2] for corner in piece]) for piece in pieces)
+    x, y = np.array([x]), np.array([y])
+    return any(holds([corner[:2] for corner in piece], x, y)[0] for piece in pieces)
 
 
 def test_a_square_without_cuts_is_two_triangles():

@@ -11,9 +11,10 @@ import pkgutil
 
 import numpy as np
 
-from .polygon import Circle, polygons, sides
+from .polygon import Circle, polygons, regions, sides
 from .surface import BORDER, Ground
 from .water import waters
+from .zone import zones_of
 
 KINDS = [module for module in
          (importlib.import_module(f'{__name__}.{m.name}') for m in pkgutil.iter_modules(__path__))
@@ -26,7 +27,7 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
     Parameters
     ----------
     shapes : sequence of shapes
-    zones : sequence of (Material, outline)
+    zones : sequence of Zone, or of (Material, outline)
     bounds : outline or None
     hole : (x, y, radius, lowest, highest, bottom) or None
         Circle that is cut into ground at those heights, and how far down; see `cup.opening`.
@@ -46,12 +47,13 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
     by_kind = [(kind, [s for s in shapes if isinstance(s, kind.SHAPES)]) for kind in KINDS]
     kinds = tuple(kind.build(own, material_number) for kind, own in by_kind)
     outlines = [o for kind, own in by_kind for s in own for o in kind.plan(s)]
-    outlines += [outline for _, outline in zones]
+    zones = zones_of(zones)
+    outlines += [outline for zone in zones for outline in (zone.polygon, *zone.cut)]
     heights = [kind.heights(s) for kind, own in by_kind for s in own]
     heights += [(pond.level, pond.level) for pond in water]
     return Ground(kinds, _borders(outlines, [bounds] if bounds else []),
-                  polygons([outline for _, outline in zones]),
-                  np.array([material_number[material] for material, _ in zones], np.int64),
+                  regions([zone.polygon for zone in zones], [zone.cut for zone in zones]),
+                  np.array([material_number[zone.material] for zone in zones], np.int64),
                   polygons([bounds] if bounds else []), np.array(hole or (), float), waters(water),
                   float(min((low for low, _ in heights), default=0.0)),
                   float(max((high for _, high in heights), default=0.0)))

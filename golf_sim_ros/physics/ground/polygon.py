@@ -15,6 +15,14 @@ class Polygons(NamedTuple):
     first: np.ndarray
 
 
+class Regions(NamedTuple):
+    """Region i is outline i without ``cuts`` number ``first_cut[i]`` to before ``first_cut[i + 1]``."""
+
+    outlines: Polygons
+    cuts: Polygons
+    first_cut: np.ndarray
+
+
 class Circle(NamedTuple):
     """A round outline in plan."""
 
@@ -30,6 +38,12 @@ def polygons(outlines):
     return Polygons(corners, first)
 
 
+def regions(outlines, cuts):
+    """`Regions` of sequences of (x, y), and for each of them a sequence of such sequences."""
+    first = np.cumsum([0] + [len(own) for own in cuts]).astype(np.int64)
+    return Regions(polygons(outlines), polygons([cut for own in cuts for cut in own]), first)
+
+
 def sides(outline):
     """Pairs of neighbouring corners, the last with the first."""
     return zip(outline, tuple(outline[1:]) + tuple(outline[:1]))
@@ -38,8 +52,12 @@ def sides(outline):
 @kernel
 def beside(table, i, x, y):
     """Distance [m] of the point from polygon `i`, 0 inside."""
-    if inside(table, i, x, y):
-        return 0.0
+    return 0.0 if inside(table, i, x, y) else from_sides(table, i, x, y)
+
+
+@kernel
+def from_sides(table, i, x, y):
+    """Distance [m] of the point from the nearest side of polygon `i`."""
     best = inf
     first = table.first[i]
     last = table.first[i + 1]
@@ -73,3 +91,24 @@ def inside(table, i, x, y):
             odd = not odd
         j = k
     return odd
+
+
+@kernel
+def in_region(table, i, x, y):
+    """Whether region `i` contains the point."""
+    if not inside(table.outlines, i, x, y):
+        return False
+    for k in range(table.first_cut[i], table.first_cut[i + 1]):
+        if inside(table.cuts, k, x, y):
+            return False
+    return True
+
+
+@kernel
+def beside_region(table, i, x, y):
+    """A distance [m] at which, or farther, region `i` lies from the point; 0 inside, and only there."""
+    away = beside(table.outlines, i, x, y)
+    for k in range(table.first_cut[i], table.first_cut[i + 1]):
+        if inside(table.cuts, k, x, y):
+            away = max(away, from_sides(table.cuts, k, x, y))
+    return away

@@ -14,7 +14,7 @@ from ..state import NO_PART
 from ..vector import ZERO, along, dot, scale
 from . import laws
 from .flat import SAME_HEIGHT
-from .polygon import Polygons, inside
+from .polygon import Polygons, Regions, in_region, inside
 from .water import Waters
 
 NO_GROUND = -1e300
@@ -37,7 +37,7 @@ class Ground(NamedTuple):
 
     kinds: tuple
     borders: np.ndarray
-    zones: Polygons
+    zones: Regions
     zone_materials: np.ndarray
     bounds: Polygons
     hole: np.ndarray
@@ -181,7 +181,7 @@ def material_of(ground, part, point):
     if len(ground.zone_materials) > 0 and is_ground(ground, part):
         for back in range(1, len(ground.zone_materials) + 1):
             i = len(ground.zone_materials) - back
-            if inside(ground.zones, i, point[0], point[1]):
+            if in_region(ground.zones, i, point[0], point[1]):
                 return ground.zone_materials[i]
     return _own_material(ground, part)
 

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Heights that are not there: values that stand for none, and how they are filled."""
+import numpy as np
+
+# What programs write where there is no height, by custom: of Arc/Info, SRTM, GDAL and the like.
+CUSTOMARY = (-9999.0, -99999.0, -32768.0, -32767.0, -3.4028234663852886e38)
+SWEEPS = 50  # towards the mean of the neighbours, at each scale
+
+
+def filled(heights):
+    """`heights` with smooth ground in place of what is not a number.
+
+    It is that of Laplace's equation, as a skin is stretched over a hole: within the heights around. It is
+    solved on a grid half as fine, and so on, for a first guess; then towards the mean of the neighbours.
+    """
+    known = np.isfinite(heights)
+    if known.all():
+        return heights
+    guess = np.kron(filled(halved(heights, known)), np.ones((2, 2)))[:heights.shape[0], :heights.shape[1]]
+    heights = np.where(known, heights, guess)
+    for _ in range(SWEEPS):
+        edge = np.pad(heights, 1, 'edge')
+        mean = 0.25 * (edge[:-2, 1:-1] + edge[2:, 1:-1] + edge[1:-1, :-2] + edge[1:-1, 2:])
+        heights = np.where(known, heights, mean)
+    return heights
+
+
+def halved(heights, known):
+    """Means of the `known` heights of each two by two; not a number where there is none."""
+    rows, columns = heights.shape
+    pad = ((0, rows % 2), (0, columns % 2))
+    sums = np.pad(np.where(known, heights, 0.0), pad)
+    counts = np.pad(known.astype(float), pad)
+    sums, counts = (part[::2, ::2] + part[1::2, ::2] + part[::2, 1::2] + part[1::2, 1::2]
+                    for part in (sums, counts))
+    with np.errstate(invalid='ignore', divide='ignore'):
+        return sums / counts

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Tools in pipes: where nobody reads on, as in ``resimulate BAG | head -1``, they end without a word."""
+from functools import wraps
+import os
+import sys
+
+UNREAD = 141  # exit code of who ends so: 128 and the number of SIGPIPE, as a shell tells it
+
+
+def in_pipes(main):
+    """`main` of a tool, which returns an exit code, made to end quietly once its output is not read."""
+    @wraps(main)
+    def run(args=None):
+        try:
+            try:
+                return main(args)
+            finally:  # of --help, too, which ends with an exception; what is left would be written too late
+                for stream in (sys.stdout, sys.stderr):
+                    if stream is not None:
+                        stream.flush()
+        except BrokenPipeError:
+            print_nowhere()
+            return UNREAD
+    return run
+
+
+def say(text):
+    """Print a line at once, if somebody reads it."""
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        print_nowhere()
+
+
+def print_nowhere():
+    """Let go what is still to be printed: Python would tell, at its end, that it could not be."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except BrokenPipeError:
+            os.dup2(nowhere, stream.fileno())
+        except AttributeError:  # there is no such stream
+            pass
+    os.close(nowhere)

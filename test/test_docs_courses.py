@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What docs/courses.md tells to copy works."""
+from pathlib import Path
+import re
+
+from golf_sim_ros.course import load_course
+from golf_sim_ros.misplaced import steepest
+from golf_sim_ros.physics import ground_height
+import pytest
+
+TEXT = (Path(__file__).parents[1] / 'docs' / 'courses.md').read_text(encoding='utf-8')
+PLAIN = 'format: 1\ntee: [0, 0]\nground: [{shape: plane, material: rough}]\n'
+
+
+def test_an_outline_in_utm_becomes_a_zone_with_a_bunker_left_out(tmp_path, capsys):
+    code, = re.findall(r'```python\n(import yaml.*?)```', TEXT, re.DOTALL)
+    exec(code, {})
+    path = tmp_path / 'links.yaml'
+    path.write_text(PLAIN + capsys.readouterr().out)
+    course = load_course(path)
+    assert [ground_height(course, *place)[1] for place in ((100, 0), (84, -4), (0, 0))] == [
+        'fairway', 'rough', 'rough']
+
+
+def test_the_slopes_on_which_a_ball_rests_are_those_told(tmp_path):
+    told = re.search(r'That is (.*?)\. On a steeper one', TEXT, re.DOTALL)[1]
+    pairs = re.findall(r'(\d+) %\s+on\s+`(\w+)`', told)
+    assert len(pairs) == 7
+    for percent, name in pairs:
+        path = tmp_path / 'links.yaml'
+        path.write_text(PLAIN.replace('rough', name))
+        material = load_course(path).ground[0].material
+        assert 100 * steepest(material, 0.4) == pytest.approx(float(percent), abs=0.5)
