@@ -46,7 +46,7 @@ class Game:
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
-        self.playing = {}  # number of the strike that a ball plays
+        self.numbers = {}  # of strikes under way, by those of the world, which counts what it takes
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
         self.paused = False
@@ -120,6 +120,7 @@ class Game:
         inputs, self.inputs = self.inputs, []
         for act in inputs:
             act()
+            self.tell_events(self.world.happened())
 
     def strike(self, name, velocity, spin):
         """Strike a ball; a bad shot has its result at once."""
@@ -132,7 +133,7 @@ class Game:
                 messages.rejection_json(self.shots, name, velocity, spin, str(error)))
             self.refusals.warn('shot', f'{name}: {error}')
             return
-        self.playing[name] = self.shots
+        self.numbers[self.world.shots] = self.shots
         self.journal.strike(self.ticks, self.shots, name, (velocity, spin), before)
         self.broadcast.scene.trails[name].clear()
 
@@ -153,8 +154,7 @@ class Game:
         """All balls back to the start; shots under way end as aborted."""
         aborted = self.world.reset()
         self.journal.note('reset', self.ticks)
-        for result in aborted:
-            self.finish(result)
+        self.tell_events([*self.world.happened(), *aborted])
         self.turned[:] = UPRIGHT
         for name in self.world.names:
             self.broadcast.scene.trails[name].clear()
@@ -163,7 +163,7 @@ class Game:
     def finish(self, result):
         """Tell the end of a shot."""
         self.awake.add(result.ball)
-        shot, ball = self.playing.pop(result.ball), self.world[result.ball]
+        shot, ball = self.numbers.pop(result.shot), self.world[result.ball]
         self.journal.rest(self.ticks, shot, result, ball)
         if result.status in ('out_of_bounds', 'water'):
             self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)

@@ -72,7 +72,8 @@ class World:
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
         self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
         self._materials = model_.material_names(course)
-        self._log, self._events, self._now, self._shots = new_log(64 + 16 * len(self.names)), [], 0.0, 0
+        self._log, self._events, self._now = new_log(64 + 16 * len(self.names)), [], 0.0
+        self.shots = 0  # strikes that were taken; each is the number of its `Result`
         self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
         self._rebuild()
@@ -259,8 +260,8 @@ class World:
         if reason:
             raise Rejected(reason)
         self._settle_clock()
-        self._shots += 1
-        ball['shot'], ball['velocity'], ball['spin'] = self._shots, velocity, spin
+        self.shots += 1
+        ball['shot'], ball['velocity'], ball['spin'] = self.shots, velocity, spin
         tee_off(ball, self._now)
         self._let_happen(self._now)
 
@@ -304,6 +305,17 @@ class World:
         self._let_happen(self._now + dt)
         self.time += dt
         self._now += dt
+        return self.happened()
+
+    def happened(self):
+        """Take what a strike, a place or a reset has let happen at once; else `advance` returns it first.
+
+        A ball that is struck too weakly to move ends its shot within the strike.
+
+        Returns
+        -------
+        list of Collision and Result
+        """
         events, self._events = self._events, []
         return events
 
