@@ -165,7 +165,7 @@ class Game:
         self.awake.add(result.ball)
         shot, ball = self.numbers.pop(result.shot), self.world[result.ball]
         self.journal.rest(self.ticks, shot, result, ball)
-        if result.status in ('out_of_bounds', 'water'):
+        if result.status in ('out_of_bounds', 'water', 'failed'):
             self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
         self.broadcast.results.publish(messages.result_json(result, shot))
         self.log.info(account.line(result))

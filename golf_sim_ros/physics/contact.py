@@ -141,7 +141,7 @@ def flat_piece(land, ball, now):
         lay_glide(land, ball, motion, coast, end, turning, unwinding)
         middle = braked.half_way(motion, end)
         allowed = max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), ROUNDING)
-        if off_path(ball, motion, coast, middle) <= allowed:
+        if not off_path(ball, motion, coast, middle) > allowed:
             break
         end = middle
     ball['ending'] = STEP

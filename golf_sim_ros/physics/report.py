@@ -5,6 +5,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from .shot import ENDLESS, MOST_PIECES, NOT_FINITE
 from .state import Phase, plain_rows
 
 
@@ -63,7 +64,10 @@ class Result(NamedTuple):
 
 
 KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.laws.sort
-STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds'}
+STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds',
+          Phase.FAILED: 'failed'}
+FAULTS = {NOT_FINITE: 'its motion was not a number any more',
+          ENDLESS: f'its path took more than {MOST_PIECES} pieces in a second'}
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
 ENDED_AS = np.array([STATUS.get(phase, MOVING) for phase in Phase])
@@ -121,7 +125,14 @@ def result(ball, name, time, hole, lies):
     """`Result` of the shot of a `ball` record, which ended at the world's `time`."""
     figures = dict(zip(SUMMARY.names, *plain_rows(summary(ball[np.newaxis], hole, lies))))
     figures['to_hole'] = None if hole is None else figures['to_hole']
-    return Result(shot=int(ball['shot']), ball=name, time=time, **figures)
+    return Result(shot=int(ball['shot']), ball=name, time=time, reason=failure(ball), **figures)
+
+
+def failure(ball):
+    """Why the shot of a `ball` record failed, or ''."""
+    if ball['phase'] != Phase.FAILED:
+        return ''
+    return FAULTS[int(ball['failed'])] + f', {ball["ended"] - ball["struck"]:.9g} s after the strike'
 
 
 MOST_SPEED = 150.0  # m/s

@@ -10,15 +10,15 @@ from . import model as model_
 from ._compile import stamp
 from .accuracy import preset
 from .advance import LOG_FULL, STAGES, advance
-from .crowd import AGE, scratch
+from .crowd import AGE, MEMBERS, scratch
 from .detect import PILE_NEAR
 from .ground import surface
 from .orientation import turn
 from .piece import LONGEST_SHOT, put_down
-from .report import KINDS, Collision, objection, result, three
-from .shot import tee_off
-from .state import (BALL, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
-                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, new_log, plain, plain_rows, restored)
+from .report import KINDS, Collision, failure, objection, result, three
+from .shot import NOT_FINITE, fail, tee_off
+from .state import (BALL, BUMP, FAILED, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
+                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, moves, new_log, plain, plain_rows, restored)
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
@@ -73,6 +73,7 @@ class World:
         self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
         self._materials = model_.material_names(course)
         self._log, self._events, self._now = new_log(64 + 16 * len(self.names)), [], 0.0
+        self.failures, self.last_failure = 0, ''  # of balls that could not go on: how many, and why
         self.shots = 0  # strikes that were taken; each is the number of its `Result`
         self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
@@ -208,6 +209,7 @@ class World:
         self._let_lean_no_more(number)
         self._balls[number] = trial
         ball['playing'] = ball['knocked'] = 0
+        ball['struck'], ball['struck_at'] = self._now, ball['position']
         self._set_off(ball, velocity, spin)
 
     def _let_lean_no_more(self, number):
@@ -324,14 +326,38 @@ class World:
         if self._balls['end'].min() == inf:  # nothing will ever end: all balls rest
             return
         start = self.time - self._now
-        while True:
-            status = advance(self._model, self._balls, until, self._crowd, self._log)
+        while self._run(until) == LOG_FULL:
             self._events += self._told(start)
-            if status != LOG_FULL:
-                break
+        self._events += self._told(start)
         for number in self._lost:
             self._drop(number, until)
         self._lost.clear()
+
+    def _run(self, until):
+        """Run the engine; where plain Python refuses to calculate, the balls at hand have failed.
+
+        Compiled code goes on with what is not a number, and finds it.
+        """
+        try:
+            with np.errstate(all='ignore'):
+                return advance(self._model, self._balls, until, self._crowd, self._log)
+        except (ArithmeticError, ValueError):
+            at_hand = self._crowd.members[:self._crowd.count[MEMBERS]].tolist()
+            if not at_hand:
+                raise
+        self._fail(at_hand, min(until, self._crowd.ends[at_hand[0]]))
+        return LOG_FULL
+
+    def _fail(self, numbers, now):
+        """Let the balls of these `numbers` that move, the first one at least, have failed."""
+        for number in numbers:
+            ball = self._balls[number]
+            if number == numbers[0] or moves(ball['phase']):
+                fail(ball, number, now, NOT_FINITE, self._log)
+                ball['end'] = inf
+            self._crowd.places[number] = -1
+        self._crowd.count[:AGE] = 0, 0
+        self._crowd.count[AGE] = len(self.names)
 
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
@@ -343,9 +369,11 @@ class World:
             elif kind != LOST:
                 what = self._hit(kind, other, sort)
                 events.append(Collision(start + time, name, *what, *vectors))
-            if kind == LOST or kind == SHOT_ENDS and ball['phase'] in (WATER, OUT):
+            if kind == LOST or kind == SHOT_ENDS and ball['phase'] in (WATER, OUT, FAILED):
                 self._lost.append(number)
-        self._log.count[0] = 0
+            if kind in (LOST, SHOT_ENDS) and ball['phase'] == FAILED:
+                self.failures, self.last_failure = self.failures + 1, f'{name}: {failure(ball)}'
+        self._log.count[:] = 0
         return events
 
     def _hit(self, kind, other, sort):
