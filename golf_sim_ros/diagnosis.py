@@ -76,6 +76,8 @@ class Diagnosis:
             'tick time p99 [us]': f'{1e6 * ordered[int(0.99 * len(ordered))]:.1f}',
             'tick time max [us]': f'{1e6 * ordered[-1]:.1f}',
             **{f'share of a core, {name} [%]': f'{share:.3f}' for name, share in self.shares.items()},
+            'balls that could not go on': str(world.failures),
+            'last of them': world.last_failure or 'none',
             'ticks made up': str(self.made_up),
             'wall time given up [s]': f'{lost:.3f}',
             'accuracy': world.accuracy,

@@ -50,6 +50,7 @@ class Game:
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
         self.paused = False
+        self.failures = 0  # of balls that could not go on, as last told
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
         self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
         self.awake = set()  # balls whose pose was still changing when last told
@@ -168,7 +169,11 @@ class Game:
         if result.status in ('out_of_bounds', 'water', 'failed'):
             self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
         self.broadcast.results.publish(messages.result_json(result, shot))
-        self.log.info(account.line(result))
+        if result.status == 'failed':
+            self.log.error(f'shot {shot} failed, and {result.ball} is back where it was struck: '
+                           f'{result.reason}')
+        else:
+            self.log.info(account.line(result))
 
     def be_exact(self, accuracy):
         """Simulate with another accuracy from now on."""
@@ -212,6 +217,10 @@ class Game:
         """Tell how well simulated time keeps up with the clock."""
         self.diagnosis.mark(self.world)
         slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.paused
+        failures = self.world.failures
+        if failures > self.failures:
+            self.log.error(f'{failures} balls could not go on so far; the last: {self.world.last_failure}')
+        self.failures = failures
         if slow:
             self.log.warning(f'slower than the clock: {self.diagnosis.factor:.3g} simulated seconds a second '
                              f'instead of {self.pace.factor:g}; no tick is left out, the play is the same',

@@ -9,6 +9,9 @@ from . import model
 from .advance import play_all
 from .ground import surface
 from .report import Result, objection, summary, suspects
+from .shot import NOT_FINITE, fail, keep_end, tee_off
+from .state import ENDED
+from .together import disperse
 from .vector import ZERO
 from .world import World, checked_wind
 
@@ -157,9 +160,28 @@ def _played(course, strikes, gusts, effects, accuracy, progress=None):
     # What is off stays off until the last shot ends, so nothing dormant is compiled in.
     awake = world._model._replace(effects=model.in_flight(world._chosen.on.values()))
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    ends = [play_all(awake, world._balls, part, gusts, world._crowd, world._log)
+    scene = awake, world._balls, gusts, world._crowd, world._log
+    ends = [_ends(scene, part)
             for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
     return summary(np.concatenate(ends), course.hole, world._materials)
+
+
+def _ends(scene, strikes):
+    """Ends of `strikes`, an `ENDED` array. Where plain Python refuses to calculate, that shot has failed."""
+    awake, balls, gusts, crowd, log = scene
+    try:
+        with np.errstate(all='ignore'):
+            return play_all(awake, balls, strikes, gusts, crowd, log)
+    except (ArithmeticError, ValueError):
+        disperse(crowd)
+        if len(strikes) > 1:
+            return np.concatenate([_ends(scene, part) for part in np.array_split(strikes, 2)])
+    ball, end = balls[0].copy(), np.empty(1, ENDED)
+    ball['velocity'], ball['spin'] = strikes[0, :3], strikes[0, 3:]
+    tee_off(ball, 0.0)
+    fail(ball, 0, 0.0, NOT_FINITE, log)
+    keep_end(ball, end[0])
+    return end
 
 
 def check_hole(course):

@@ -126,7 +126,7 @@ class Player(Node):
             if not self._results.get_publisher_count():
                 raise NoShot('the sim went away before the shot ended')
         result = self._own_result(velocity, spin)
-        if result['status'] in ('rejected', 'aborted'):
+        if result['status'] in ('rejected', 'aborted', 'failed'):
             raise NoShot(': '.join(filter(None, (result['status'], result['reason']))))
         return result
 

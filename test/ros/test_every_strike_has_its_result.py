@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every strike has exactly one result with its own number, in order, however weak it was."""
 import json
+from math import inf
 
 import pytest
 from std_srvs.srv import SetBool
@@ -119,3 +120,21 @@ def test_weak_strikes_over_dds_are_answered_running_and_paused(start, make_golfe
     assert [result['shot'] for result in told] == [1, 2, 3, 4]
     assert golfer.play(GOOD)['shot'] == 5
     assert sim.stop() == 0
+
+
+def test_a_failed_shot_is_told_logged_and_recorded_and_the_play_goes_on(monkeypatch):
+    course = load_course('golf_without_friends')
+    told = ToldGame(monkeypatch, course._replace(air=course.air._replace(pressure=inf)))
+    told.send('ball', (60.0, 0.0, 15.0))
+    told.send('ball', (1.0, 0.0, 0.0))
+    told.step()
+    told.play_on()
+    check(told, 2)
+    failed, good = told.results
+    assert (failed['status'], good['status']) == ('failed', 'at_rest')
+    assert failed['position'] == [0.0, 0.0, 0.0213]
+    assert [entry['kind'] for entry in told.entries] == ['config', 'strike', 'rest', 'drop', 'strike', 'rest']
+    assert 'shot 1 failed' in told.log.error.call_args.args[0]
+    told.game.diagnose()
+    slow, values = told.broadcast.tell_diagnosis.call_args.args
+    assert values['balls that could not go on'] == '1' and failed['reason'] in values['last of them']

@@ -75,8 +75,8 @@ def _first_step(method, speed, hop, most):
 
 @runge_kutta.stands.register(DormandPrince)
 def _stands(method, h, error, most):
-    # Where a force jumps, nothing is gained below LEAST.
-    return error <= most or h < LEAST
+    # Where a force jumps, nothing is gained below LEAST. A length that is no number is none of a step.
+    return error <= most or not h >= LEAST
 
 
 @runge_kutta.next_step.register(DormandPrince)
