@@ -10,7 +10,7 @@ from .physics.state import BALL, OF_TICK, plain_of_piece, plain_of_tick
 
 RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time',
           'duration', 'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time',
-          'position', 'velocity', 'spin', 'reason')
+          'position', 'velocity', 'spin', 'reason', 'stroke', 'penalty')
 REJECTION = ('shot', 'ball', 'status', 'velocity', 'spin', 'reason')
 COLLISION = ('time', 'ball', 'kind', 'with', 'position', 'normal', 'velocity_before',
              'velocity_after', 'spin_before', 'spin_after', 'impulse')

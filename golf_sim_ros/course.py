@@ -124,6 +124,7 @@ def course_of(content, base, folder, sources, opened):
         on_ground(course, key)
     if course.hole is not None:
         even_around_hole(course)
+    free_at_tee(course)
     return course
 
 
@@ -132,6 +133,14 @@ def on_ground(course, key):
     place = getattr(course, key)
     if place is not None and physics.ground_height(course, *place) is None:
         raise refused(key, list(place), 'above some ground, and there is none')
+
+
+def free_at_tee(course):
+    """Refuse a course on whose tee no ball can lie."""
+    try:
+        physics.check_tee(course)
+    except ValueError as error:
+        raise CourseError(str(error)) from None
 
 
 def even_around_hole(course):

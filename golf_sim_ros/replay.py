@@ -261,10 +261,10 @@ def other_end(recording, shot, again):
 
 
 def differences(tick, of, told, now):
-    """Differences between two dicts."""
-    for field in {**told, **now}:
-        if told.get(field) != now.get(field):
-            yield Difference(tick, f'{field} of the {of}', told.get(field), now.get(field))
+    """Differences between two dicts, in what was told then: an earlier version may have told less."""
+    for field in told:
+        if told[field] != now.get(field):
+            yield Difference(tick, f'{field} of the {of}', told[field], now.get(field))
 
 
 def timed(world, shot, tick, accuracy=None):

@@ -23,7 +23,7 @@ from .splash import drown, emerge, is_over, splash
 from .state import (BALL_STOPS, BORDER, ENDED, FLIGHT, HIT, HOLED, LAUNCH, LOST, MEETING, OUT, REST,
                     SHOT_ENDS, SLIP_STOPS, SPLASH, STEP, TIME_LIMIT, WATER, moves)
 from .together import disperse, enlist
-from .vector import ZERO, along, put, unit, vector
+from .vector import ZERO, put, unit, vector
 
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'
@@ -123,13 +123,17 @@ def finish(model, ball, number, now, log):
     """End the shot of a ball that has stopped, is lost, or has been on its way for too long."""
     if not is_finite(ball):
         fail(ball, number, now, NOT_FINITE, log)
-    if moves(ball['phase']) and is_out(model, ball):
+    before = ball['phase']
+    if moves(before) and is_below(model.land.ground, ball, model.land.ball.radius):
         ball['phase'] = OUT
-        tell_gone(ball, number, now, log)
     elif is_over(model.land, ball):
         drown(ball)
-    elif ball['phase'] == REST and is_in_hole(model, ball):
+    elif before == REST and is_in_hole(model, ball):
         ball['phase'] = HOLED
+    if is_out(model.land.ground, ball, model.land.ball.radius):
+        ball['phase'] = OUT
+    if ball['phase'] == OUT and before != OUT:
+        tell_gone(ball, number, now, log)
     is_lost = ball['phase'] == OUT or ball['phase'] == WATER
     if is_lost and ball['knocked'] and not ball['playing']:
         ball['knocked'] = 0
@@ -197,17 +201,20 @@ def look_out(balls, i, radius, now, crowd):
 
 
 @kernel
-def is_out(model, ball):
-    """Whether the ball fell below all ground, or is on ground or water outside the bounds."""
-    ground = model.land.ground
-    if ball['water'] == 0 and ball['position'][2] < ground.lowest - 10.0 * model.land.ball.radius:
-        return True
-    if ball['phase'] == FLIGHT and ball['ending'] != HIT and ball['ending'] != SPLASH:
+def is_below(ground, ball, radius):
+    """Whether the ball fell below all ground."""
+    return ball['water'] == 0 and ball['position'][2] < ground.lowest - 10.0 * radius
+
+
+@kernel
+def is_out(ground, ball, radius):
+    """Whether a ball that was struck, or set off by another, has come to rest out of bounds.
+
+    It is out if all of it is (Rules of Golf 18.2a(2)); one that is still moving may come back.
+    """
+    if not (ball['playing'] or ball['knocked']) or ball['phase'] != REST and ball['phase'] != WATER:
         return False
-    # On the line itself, where it is heading decides.
-    heading = unit(vector(ball['velocity']), ZERO)
-    ahead = along(vector(ball['position']), surface.LOOK_AHEAD, heading)
-    return not surface.in_bounds(ground, ahead[0], ahead[1])
+    return surface.out_of_bounds(ground, ball['position'][0], ball['position'][1]) >= radius
 
 
 @kernel

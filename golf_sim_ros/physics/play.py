@@ -115,7 +115,7 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     Returns
     -------
     ndarray, (n,)
-        Structured, with the fields of `Result` but shot, ball, time and reason.
+        Structured, with the fields of `Result` but shot, ball, time, reason, stroke and penalty.
 
     Raises
     ------

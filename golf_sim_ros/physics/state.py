@@ -76,6 +76,8 @@ BALL = np.dtype([
     ('bounces', 'i8'), ('stalled', 'i8'), ('stuck', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
     # why its shot failed; since when, for a second, its pieces are counted, and how many they are
     ('failed', 'i8'), ('counted_from', 'f8'), ('pieces', 'i8'),
+    # how often it was struck since it was teed
+    ('strokes', 'i8'),
 ], align=True)
 
 TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
@@ -87,7 +89,8 @@ ENDED = np.dtype([(name, BALL[name]) for name in (
 
 OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its piece
 # What counts of all else if the ball does not move: the rest is written when it sets off.
-STANDING = ('phase', 'support', 'material', 'normal', 'tail_end', 'tail_press', 'tail_air', 'leans')
+STANDING = ('phase', 'support', 'material', 'normal', 'tail_end', 'tail_press', 'tail_air', 'leans',
+            'strokes')
 PRESSED = ('pressing', 'pressed_by', 'pressed')  # the same of a ball that is not in a pile
 
 
