@@ -25,6 +25,7 @@ from .spinning import run
 COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
 # Asks for the least, so it matches every publisher; only the newest wind counts.
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+HEARTBEAT = 0.5  # s from one to the next
 PATIENCE = 1.5  # s; a start that compiles nothing is done by then
 WAITING = ('waiting for the physics to be compiled: the first start with these effects does that, for up to '
            'a minute; later ones find it done')
@@ -59,6 +60,7 @@ class SimNode(Node):
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
         self.beat = self.create_timer(1.0, self.on_beat, clock=steady)
+        self.heart = self.create_timer(HEARTBEAT, self.on_heartbeat, clock=steady)
         self.introduce()
 
     def new_world(self, given):
@@ -179,6 +181,10 @@ class SimNode(Node):
         self.game.step()
         if self.game.asleep:
             self.timer.cancel()
+
+    def on_heartbeat(self):
+        """Tell that the node is there; one that hangs does not."""
+        self.game.broadcast.tell_heartbeat(self.game.shots, self.game.paused)
 
     def on_beat(self):
         """Once a second, moving or not: everything, and how the simulation does."""

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Looks for what stops the simulator: random scenes, and malformed and extreme messages over DDS.
 
-Scenes are played in a process of their own each worker, so that one that hangs is told by its seed. What is found
-is kept as a case in test/data/cases. `--scenes N`, `--messages N` and `--seed S` say how much, from which seed on.
+Scenes are played in a process of their own, so that one that hangs is told by its seed. What is found is kept
+as a case in test/data/cases. `--scenes N`, `--messages N` and `--seed S` say how much, from which seed on.
 """
 import argparse
 from collections import Counter
@@ -74,7 +74,8 @@ class Worker:
 
 def scenes(count, seed):
     """Play so many scenes; returns what went wrong, a list of lines."""
-    worker, told, refused, slowest, troubles, start, most = Worker(), Counter(), Counter(), 0.0, [], None, 0.0
+    worker, told, refused, troubles = Worker(), Counter(), Counter(), []
+    slowest, start, most = 0.0, 0.0, 0.0
     began = time.monotonic()
     for number in range(seed, seed + count):
         (why, statuses, took, trouble), used = worker.play(number)

@@ -129,7 +129,7 @@ def main(args=None):
     ending = Ending()
     try:
         options, launch = begun(sys.argv if args is None else args)
-        shoot(Player(options.ball, options.namespace, options.timeout), options, launch)
+        shoot(Player(options.ball, options.namespace, options.timeout, options.wait), options, launch)
     except (NoShot, NameValidationException) as error:
         return failed(error, 1)
     except KeyboardInterrupt:
