@@ -49,7 +49,7 @@ class Game:
         self.numbers = {}  # of strikes under way, by those of the world, which counts what it takes
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
-        self.paused = False
+        self.paused = self.stood_still = False  # now, and at any time since the last diagnosis
         self.failures = 0  # of balls that could not go on, as last told
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
         self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
@@ -73,6 +73,7 @@ class Game:
     def advance(self):
         """Advance by as many whole ticks as are due; where they are many, tell in between."""
         if self.paused:
+            self.stood_still = True
             self.pace.skip()
             return
         moving = self.world.moving
@@ -216,7 +217,8 @@ class Game:
     def diagnose(self):
         """Tell how well simulated time keeps up with the clock."""
         self.diagnosis.mark(self.world)
-        slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.paused
+        slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.stood_still
+        self.stood_still = self.paused
         failures = self.world.failures
         if failures > self.failures:
             self.log.error(f'{failures} balls could not go on so far; the last: {self.world.last_failure}')

@@ -9,7 +9,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
 
-from .environment import complete_environment
+from .environment import complete_environment, unsafe
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -59,6 +59,9 @@ def run(make_node, args=None):
     """
     ending = Ending()
     complete_environment()
+    if unsafe():
+        print(f'golf_sim_ros: {unsafe()}', file=sys.stderr)
+        return 1
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         node = checked(make_node)

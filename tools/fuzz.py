@@ -19,7 +19,7 @@ from fuzz_scenes import played  # noqa: E402
 
 SEED = 20  # the first of the seeds of a run; each scene has its own
 PATIENCE = 120.0  # s of wall time, after which a scene hangs
-MEMORY = 100.0  # MB that a worker may grow by
+MEMORY = 100.0  # MB that a worker may grow by after a quarter of the scenes
 
 
 def memory():

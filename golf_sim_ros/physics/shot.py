@@ -8,7 +8,7 @@ from .vector import ZERO, put, vector
 NOT_FINITE, ENDLESS = 1, 2  # why a shot fails
 # Of a ball's path in a second of it: what several surfaces hold takes 5 000 (caught.py), and nothing in
 # `make hard` takes more than 5 100. A hundred times that are some seconds of a processor's time.
-MOST_PIECES = 600_000
+MOST_PIECES = 510_000
 TOP = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
 
 

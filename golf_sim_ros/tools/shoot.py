@@ -7,7 +7,7 @@ from rclpy.exceptions import NameValidationException
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from ..environment import complete_environment
+from ..environment import complete_environment, unsafe
 from ..spinning import Ending
 from .launch_monitor import Launch, parted, velocity_and_spin
 from .player import NoShot, Player
@@ -148,7 +148,7 @@ def begun(args):
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         return typed
     except RuntimeError as error:
-        raise SystemExit(failed(f'arguments for ROS: {error}', 2)) from None
+        raise SystemExit(failed(unsafe() or f'arguments for ROS: {error}', 1 if unsafe() else 2)) from None
 
 
 def failed(reason, code):
