@@ -62,7 +62,7 @@ setup(
         'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10',
-                 'trimesh'],
+                 'trimesh', 'dask[distributed]'],
     },
     zip_safe=False,
 )

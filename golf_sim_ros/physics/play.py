@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shots from strike to rest: one with its path, or many with their figures."""
-from itertools import repeat
+from concurrent.futures import BrokenExecutor, CancelledError
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -121,15 +122,26 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     ------
     ValueError
         A shape is not (n, 3), or a shot can't be played: the message says which and why.
+    RuntimeError
+        A worker of the executor ended before its shots were played.
     """
     strikes = checked_strikes(velocities, spins)
     gusts = checked_gusts(wind)
     progress = progress or bar
     if executor is None:
         return _played(course, strikes, gusts, effects, accuracy, progress)
-    parts = [part for part in np.array_split(strikes, chunks) if len(part)]
-    played = executor.map(_played, repeat(course), parts, repeat(gusts), repeat(effects), repeat(accuracy))
-    return np.concatenate(list(progress(played, total=len(parts))))
+    parts = [part for part in np.array_split(strikes, chunks) if len(part)] or [strikes]
+    try:
+        # One argument: some executors want to know how many there are.
+        played = executor.map(partial(_part, course, gusts, effects, accuracy), parts)
+        return np.concatenate(list(progress(played, total=len(parts))))
+    except (BrokenExecutor, CancelledError) as error:
+        raise RuntimeError(f'a worker of {type(executor).__name__} ended before its shots were played: '
+                           f'{" ".join(str(error).split())}') from error
+
+
+def _part(course, gusts, effects, accuracy, strikes):
+    return _played(course, strikes, gusts, effects, accuracy)
 
 
 def bar(parts, total):
