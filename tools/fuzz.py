@@ -19,7 +19,7 @@ from fuzz_scenes import played  # noqa: E402
 
 SEED = 20  # the first of the seeds of a run; each scene has its own
 PATIENCE = 120.0  # s of wall time, after which a scene hangs
-MEMORY = 100.0  # MB that a worker may grow by after a quarter of the scenes
+MEMORY = 100.0  # MB that a worker may grow by in the second half of the scenes: before it compiles
 
 
 def memory():
@@ -87,14 +87,16 @@ def scenes(count, seed):
             print(troubles[-1], flush=True)
         if not worker.process.is_alive():
             worker = Worker()
-        if number - seed == count // 4:
+        if number - seed == count // 2:
             start = used
         most = max(most, used)
+        if (number - seed) % 100 == 99:
+            print(f'{number - seed + 1} scenes so far: {dict(told)}, slowest {slowest:.2f} s', flush=True)
     worker.pipe.send(None)
     worker.process.join(10.0)
     print(f'{count} scenes from seed {seed} in {time.monotonic() - began:.0f} s: {refused[False]} played, '
           f'{refused[True]} refused by name; shots: {dict(told)}; slowest call {slowest:.2f} s; '
-          f'memory {start:.0f} MB after a quarter, {most:.0f} MB at most', flush=True)
+          f'memory {start:.0f} MB after a half, {most:.0f} MB at most', flush=True)
     if start and most > start + MEMORY:
         troubles.append(f'memory grew from {start:.0f} to {most:.0f} MB')
     return troubles
