@@ -4,6 +4,7 @@
 # make sim     the simulator and the wind, until Ctrl-C
 # make hard    every hard case with every preset and at three rates: docs/stability.md; HARD_ARGS='shots' for a part
 # make bench   what is fast and what is not, against baselines of the same run; BENCH_ARGS=--quick for less
+# make fuzz    random scenes, malformed and extreme messages: what stops the sim; FUZZ_ARGS='--scenes 2000' for longer
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #
 # Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
@@ -15,11 +16,12 @@ DISTRO ?= jazzy
 PYTEST_ARGS ?=
 BENCH_ARGS ?=
 HARD_ARGS ?=
+FUZZ_ARGS ?=
 
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: play sim test hard bench environment clean
+.PHONY: play sim test hard fuzz bench environment clean
 
 play: environment
 	@$(VENV)/bin/python tools/play.py
@@ -32,6 +34,9 @@ test: environment
 
 hard: environment
 	@$(VENV)/bin/python tools/hard.py $(HARD_ARGS)
+
+fuzz: environment
+	@$(VENV)/bin/python tools/fuzz.py $(FUZZ_ARGS)
 
 bench: environment
 	@$(VENV)/bin/python benchmarks/bench.py $(BENCH_ARGS)
