@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Malformed and extreme messages, services and parameters over DDS at a sim, and a good shot after them."""
+from collections import deque
 from contextlib import contextmanager, suppress
 import json
 from math import inf, nan
 import os
 from pathlib import Path
+from signal import SIGABRT
 import socket
 import sys
 import tempfile
@@ -15,6 +17,7 @@ import numpy as np
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test' / 'ros')]
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped  # noqa: E402
+import pytest  # noqa: E402
 from processes import Golfer, parameters, Process, READY, wait_until  # noqa: E402
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue  # noqa: E402
 from rcl_interfaces.srv import SetParameters  # noqa: E402
@@ -57,6 +60,8 @@ class Attacker(Golfer):
     def __init__(self, namespace, seed):
         super().__init__(namespace)
         self.rng = np.random.default_rng(seed)
+        self.journal = deque(maxlen=100)
+        self.node.create_subscription(String, 'journal', lambda entry: self.journal.append(entry), 100)
         self.beats = self.listen(String, 'heartbeat', 1)
         self.all_results = self.listen(String, 'shot/result', 100000)
         self.ways = {topic: self.publisher(kind, topic, 100) for topic, kind in (
@@ -169,7 +174,8 @@ def memory(process):
 def messages(count, seed):
     """Send so many malformed and as many extreme messages; returns what went wrong, a list of lines."""
     with domain():
-        sim = Process('sim_node', *parameters('/fuzzed', real_time_factor=0.0))
+        sim = Process('sim_node', *parameters('/fuzzed', real_time_factor=0.0),
+                      environment={'PYTHONFAULTHANDLER': '1'})
         try:
             sim.wait_for(READY)
             attacker = Attacker('/fuzzed', seed)
@@ -186,12 +192,18 @@ def attacked(sim, attacker, count, seed):
     troubles, began = [], time.monotonic()
     expected = attacker.good_shot()
     for number in range(2 * count):
-        (attacker.extreme if number % 2 else attacker.malformed)()
-        if number % BATCH == 0:
-            attacker.barrier()
+        try:
+            (attacker.extreme if number % 2 else attacker.malformed)()
+            if number % BATCH == 0:
+                attacker.barrier()
+        except pytest.fail.Exception as error:
+            sim.popen.send_signal(SIGABRT)  # it says where it is
+            sim.wait()
+            last = [message.data for message in attacker.journal if '"kind": "strike"' in message.data][-1:]
+            return [f'after {number} messages of seed {seed}: {error}: {sim.output[-3000:]}', *last]
         if sim.popen.poll() is not None:
             return [f'the sim ended with {sim.popen.poll()} after {number} messages of seed {seed}: '
-                    + sim.output[-900:]]
+                    + sim.output[-3000:]]
         if number == count:
             start = memory(sim)
     if attacker.good_shot() != expected:

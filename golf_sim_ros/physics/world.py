@@ -24,6 +24,7 @@ from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
 CLEAR = 2.2  # radii from centre to centre, of a ball that is dropped beside another
+FARTHEST = 1e6  # m: as in course files
 FALL = 1e4  # m: how far down ground is looked for
 RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
 PHASES = tuple(Phase)
@@ -210,7 +211,7 @@ class World:
         Raises
         ------
         ValueError
-            Not finite, no ground at (x, y), inside anything solid or another ball, or in water.
+            Not finite or over 1e6 m away, no ground at (x, y), inside anything solid or another ball, or in water.
         """
         number = self._number(name)
         ball = self._balls[number]
@@ -219,6 +220,8 @@ class World:
         spin = ZERO if spin is None else tuple(map(float, spin))
         if not all(map(isfinite, (*position, *velocity, *spin))):
             raise NoPlace(f'position {position}, velocity {velocity} or spin {spin} is not finite')
+        if max(map(abs, position)) > FARTHEST:
+            raise NoPlace(f'position {position} is farther away than {FARTHEST:g} m')
         self._put(number, position)
         self._set_off(ball, velocity, spin)
 

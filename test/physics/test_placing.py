@@ -200,6 +200,21 @@ def test_a_place_on_the_bank_of_water_is_refused_where_the_ball_would_lie_in_it(
     world.place('ball', (0.9, 0.0))
 
 
+@pytest.mark.parametrize('place', [(1e308, 0.0), (0.0, -1.1e6), (0.0, 0.0, 1e9), (3e6, 0.0, 0.1)])
+def test_a_place_out_of_this_world_is_refused(place):
+    world = World(level(HARD))
+    with pytest.raises(ValueError, match='farther away than 1e[+]06 m'):
+        world.place('ball', place)
+
+
+@pytest.mark.parametrize('place', [(1e6, 0.0), (-1e6, 1e6)])
+def test_a_weak_shot_far_away_comes_to_rest(place):
+    world = World(level(HARD))
+    world.place('ball', place)
+    world.strike('ball', (1e-3, 0.0, 1e-3))
+    assert world.advance(10.0)[-1].status == 'at_rest'
+
+
 def test_strikes_are_counted_from_the_tee():
     world = World(Course((Plane(material=HARD),), hole=(3.0, 0.0), effects=('gravity',),
                          bounds=((-5, -5), (9, -5), (9, 5), (-5, 5))))
