@@ -209,7 +209,7 @@ def shot(world, rng, watch):
     """Statuses of the shots of a strike at each ball, after a place or a wind now and then."""
     rate, struck, events = rng.choice(RATES), 0, []
     if rng.random() < 0.3:
-        watch(world.set_wind, rng.normal(size=3) * rng.choice([1.0, 10.0, 30.0]))
+        watch(world.set_wind, direction(rng) * rng.choice([1.0, 10.0, 99.9]))
     for name in world.names:
         if rng.random() < 0.3 and world[name].phase in STANDING:
             try:
@@ -224,7 +224,7 @@ def shot(world, rng, watch):
             pass
         events += world.happened()
     if rng.random() < 0.2:
-        watch(world.set_wind, rng.normal(size=3) * 20.0)
+        watch(world.set_wind, direction(rng) * 20.0)
     events += run(world, rate, watch)
     check(world, events, struck)
     return [event.status for event in events if isinstance(event, Result)]

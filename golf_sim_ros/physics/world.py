@@ -211,7 +211,8 @@ class World:
         Raises
         ------
         ValueError
-            Not finite or over 1e6 m away, no ground at (x, y), inside anything solid or another ball, or in water.
+            Not finite or over 1e6 m away, no ground at (x, y), inside anything solid or another ball, in
+            water.
         """
         number = self._number(name)
         ball = self._balls[number]
