@@ -139,7 +139,7 @@ def free_at_tee(course):
     """Refuse a course on whose tee no ball can lie."""
     try:
         physics.check_tee(course)
-    except ValueError as error:
+    except physics.NoPlace as error:
         raise CourseError(str(error)) from None
 
 

@@ -528,7 +528,7 @@ def unfit(tee, names, number, reason):
 
 def check_tee(course):
     """Raise `NoPlace` where a ball can't lie on the course's tee."""
-    World(course)
+    World(course._replace(effects='auto'))  # what its effects are worth is found out where it is played
 
 
 def spots(place, radius):
