@@ -4,8 +4,9 @@
 # make sim     the simulator and the wind, until Ctrl-C
 # make hard    every hard case with every preset and at three rates: docs/stability.md; HARD_ARGS='shots' for a part
 # make bench   what is fast and what is not, against baselines of the same run; BENCH_ARGS=--quick for less
+# make fuzz    random scenes, malformed and extreme messages, broken files: what stops the sim; FUZZ_ARGS='--scenes 2000'
+#              and FUZZ_FILES_ARGS='--count 20000 --kinds courses' for longer
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
-# make fuzz    files broken in every way, read; FUZZ_ARGS='--seed 7 --count 20000 --kinds courses' for more
 #
 # Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
 # Other wheels where ROS 2 is not sourced: make DISTRO=kilted VENV=.venv_kilted test
@@ -17,11 +18,12 @@ PYTEST_ARGS ?=
 BENCH_ARGS ?=
 HARD_ARGS ?=
 FUZZ_ARGS ?=
+FUZZ_FILES_ARGS ?=
 
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: play sim test fuzz hard bench environment clean
+.PHONY: play sim test hard fuzz bench environment clean
 
 play: environment
 	@$(VENV)/bin/python tools/play.py
@@ -33,11 +35,12 @@ test: environment
 	@$(VENV)/bin/compile_physics || true
 	@$(VENV)/bin/python -m pytest -n 2 --dist loadfile $(PYTEST_ARGS)
 
-fuzz: environment
-	@$(VENV)/bin/python tools/fuzz_files.py $(FUZZ_ARGS)
-
 hard: environment
 	@$(VENV)/bin/python tools/hard.py $(HARD_ARGS)
+
+fuzz: environment
+	@$(VENV)/bin/python tools/fuzz.py $(FUZZ_ARGS)
+	@$(VENV)/bin/python tools/fuzz_files.py $(FUZZ_FILES_ARGS)
 
 bench: environment
 	@$(VENV)/bin/python benchmarks/bench.py $(BENCH_ARGS)

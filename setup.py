@@ -65,7 +65,7 @@ setup(
         'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10',
-                 'trimesh', 'rasterio'],
+                 'trimesh', 'rasterio', 'dask[distributed]'],
     },
     zip_safe=False,
 )

@@ -10,7 +10,7 @@ from .physics.state import BALL, OF_TICK, plain_of_piece, plain_of_tick
 
 RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time',
           'duration', 'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time',
-          'position', 'velocity', 'spin', 'reason')
+          'position', 'velocity', 'spin', 'reason', 'stroke', 'penalty')
 REJECTION = ('shot', 'ball', 'status', 'velocity', 'spin', 'reason')
 COLLISION = ('time', 'ball', 'kind', 'with', 'position', 'normal', 'velocity_before',
              'velocity_after', 'spin_before', 'spin_after', 'impulse')
@@ -20,10 +20,10 @@ DIGITS = 4  # of lengths, speeds and angles in a result; `time` has two more
 
 
 def collision_text(collision):
-    """One JSON object, in full precision."""
+    """One JSON object, in full precision; null in place of what is not finite."""
     values = collision._asdict()
     values['with'] = values['with_']
-    return text({key: values[key] for key in COLLISION})
+    return text({key: plain(values[key]) for key in COLLISION})
 
 
 def result_text(result, shot):
@@ -61,15 +61,29 @@ def piece_text(record):
     return text(plain_of_piece(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
 
 
-def plain(value, digits):
-    """`value` for JSON: floats rounded, or None where not finite; never a negative zero."""
+def plain(value, digits=None):
+    """`value` for JSON: floats rounded, if to `digits`, without a negative zero; None where not finite."""
     if isinstance(value, float):
-        return round(value, digits) + 0.0 if isfinite(value) else None
+        if not isfinite(value):
+            return None
+        return value if digits is None else round(value, digits) + 0.0
     if isinstance(value, (tuple, list)):
         return [plain(part, digits) for part in value]
     return value
 
 
 def text(values):
-    """`values` as JSON; numbers come back as they were, to the bit."""
-    return ENCODER.encode(values)
+    """`values` as JSON; numbers come back as they were, to the bit. What is not finite is a text: 'nan'."""
+    try:
+        return ENCODER.encode(values)
+    except ValueError:
+        return ENCODER.encode(spelled(values))
+
+
+def spelled(value):
+    """`value` with texts in place of numbers that are not finite."""
+    if isinstance(value, float) and not isfinite(value):
+        return str(value)
+    if isinstance(value, dict):
+        return {key: spelled(part) for key, part in value.items()}
+    return [spelled(part) for part in value] if isinstance(value, (tuple, list)) else value

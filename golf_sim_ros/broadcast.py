@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """All that `sim_node` publishes, with the qualities of service and why."""
-from time import monotonic
+from time import monotonic, time_ns
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
@@ -10,6 +10,7 @@ from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
 from . import messages
+from .as_json import text
 from .diagnosis import diagnostic
 from .markers import course_markers
 from .older_rclpy import on_match, watch
@@ -20,6 +21,7 @@ POINTS = QoSProfile(depth=100)  # a bouncing ball makes many at once
 # Nothing of it may be missed: who joins late or loses the link for a while gets the last ones.
 EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 CLOCK_PERIOD = 0.01  # s of wall time at least
+BEAT = QoSProfile(depth=1)  # only the last one counts; reliable, so that it matches whatever is asked for
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -55,6 +57,7 @@ class Broadcast:
         watch(node, [self.course], on_viewer)
         self.play = make(MarkerArray, 'play/markers', STREAM)
         self.diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
+        self.heartbeat, self.session = make(String, 'heartbeat', BEAT), time_ns()
 
     def open_balls(self, matched):
         """Publishers of each ball, by name."""
@@ -105,6 +108,10 @@ class Broadcast:
         if self.entries_since > EVENTS.depth:
             self.entries_since = 1
             self.journal.publish(String(data=self.config))
+
+    def tell_heartbeat(self, shots, paused):
+        """That the sim is there: which start of it, how many strikes it has received, whether time stands."""
+        self.heartbeat.publish(String(data=text({'session': self.session, 'shots': shots, 'paused': paused})))
 
     def tell_scene(self, wind):
         """Markers of the play."""

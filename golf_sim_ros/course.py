@@ -194,6 +194,7 @@ def course_of(content, base, folder, sources, opened):
         on_ground(course, key, look, files)
     if course.hole is not None:
         even_around_hole(course, files)
+    free_at_tee(course)
     return course._replace(notes=(*notes, *misplaced(course, files), *steep(course, look)))
 
 
@@ -202,6 +203,14 @@ def on_ground(course, key, look, files):
     place = getattr(course, key)
     if place is not None and look(*place) is None:
         raise refused(key, list(place), f'above some ground, and there is none{files_reach(course, files)}')
+
+
+def free_at_tee(course):
+    """Refuse a course on whose tee no ball can lie."""
+    try:
+        physics.check_tee(course)
+    except physics.NoPlace as error:
+        raise CourseError(str(error)) from None
 
 
 def even_around_hole(course, files):

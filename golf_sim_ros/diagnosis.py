@@ -18,7 +18,7 @@ class Diagnosis:
 
     def __init__(self):
         self.durations = deque([0.0], maxlen=1000)
-        self.made_up = 0
+        self.made_up = self.strikes_lost = 0
         self.wind_came = None
         self.last = monotonic(), 0.0
         self.factor = 1.0
@@ -76,6 +76,9 @@ class Diagnosis:
             'tick time p99 [us]': f'{1e6 * ordered[int(0.99 * len(ordered))]:.1f}',
             'tick time max [us]': f'{1e6 * ordered[-1]:.1f}',
             **{f'share of a core, {name} [%]': f'{share:.3f}' for name, share in self.shares.items()},
+            'balls that could not go on': str(world.failures),
+            'last of them': world.last_failure or 'none',
+            'strikes lost unseen': str(self.strikes_lost),
             'ticks made up': str(self.made_up),
             'wall time given up [s]': f'{lost:.3f}',
             'accuracy': world.accuracy,

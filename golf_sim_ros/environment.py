@@ -24,6 +24,21 @@ def complete_environment(environment=os.environ):
         environment['AMENT_PREFIX_PATH'] = sys.prefix
 
 
+def unsafe(environment=os.environ):
+    """What is missing of the security that `environment` asks ROS for, as one line; '' where nothing is.
+
+    rclpy itself says no more than that it cannot be initialized.
+    """
+    asked = [environment.get(f'ROS_SECURITY_{name}') for name in ('ENABLE', 'STRATEGY')]
+    if asked != ['true', 'Enforce']:
+        return ''
+    keystore = environment.get('ROS_SECURITY_KEYSTORE', '')
+    if keystore and Path(keystore, 'enclaves').is_dir():
+        return ''
+    return (f'ROS_SECURITY_ENABLE is true, but ROS_SECURITY_KEYSTORE {keystore!r} is no keystore: make one '
+            'with ros2 security create_keystore, or unset ROS_SECURITY_ENABLE')
+
+
 def _can_log_at_home(environment):
     """Whether rclpy can write where it does by default; makes the folder if need be, as rclpy would."""
     if not environment.get('HOME'):

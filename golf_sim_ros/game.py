@@ -49,10 +49,11 @@ class Game:
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
-        self.playing = {}  # number of the strike that a ball plays
+        self.numbers = {}  # of strikes under way, by those of the world, which counts what it takes
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
-        self.paused = False
+        self.paused = self.stood_still = False  # now, and at any time since the last diagnosis
+        self.failures = 0  # of balls that could not go on, as last told
         self.began, self.spent = perf_counter(), process_time()  # when the last advance began
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
         self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
@@ -80,6 +81,7 @@ class Game:
         passed, spent = perf_counter() - self.began, process_time() - self.spent
         self.began, self.spent = self.began + passed, self.spent + spent
         if self.paused:
+            self.stood_still = True
             self.pace.skip()
             return
         moving = self.world.moving
@@ -134,6 +136,7 @@ class Game:
         inputs, self.inputs = self.inputs, []
         for act in inputs:
             act()
+            self.tell_events(self.world.happened())
 
     def strike(self, name, velocity, spin):
         """Strike a ball; a bad shot has its result at once."""
@@ -146,7 +149,7 @@ class Game:
                 messages.rejection_json(self.shots, name, velocity, spin, str(error)))
             self.refusals.warn('shot', f'{name}: {error}')
             return
-        self.playing[name] = self.shots
+        self.numbers[self.world.shots] = self.shots
         self.journal.strike(self.ticks, self.shots, name, (velocity, spin), before)
         self.broadcast.scene.trails[name].clear()
 
@@ -167,8 +170,7 @@ class Game:
         """All balls back to the start; shots under way end as aborted."""
         aborted = self.world.reset()
         self.journal.note('reset', self.ticks)
-        for result in aborted:
-            self.finish(result)
+        self.tell_events([*self.world.happened(), *aborted])
         self.turned[:] = UPRIGHT
         for name in self.world.names:
             self.broadcast.scene.trails[name].clear()
@@ -177,12 +179,16 @@ class Game:
     def finish(self, result):
         """Tell the end of a shot."""
         self.awake.add(result.ball)
-        shot, ball = self.playing.pop(result.ball), self.world[result.ball]
+        shot, ball = self.numbers.pop(result.shot), self.world[result.ball]
         self.journal.rest(self.ticks, shot, result, ball)
-        if result.status in ('out_of_bounds', 'water'):
+        if result.status in ('out_of_bounds', 'water', 'failed'):
             self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
         self.broadcast.results.publish(messages.result_json(result, shot))
-        self.log.info(account.line(result))
+        if result.status == 'failed':
+            self.log.error(f'shot {shot} failed, and {result.ball} is back where it was struck: '
+                           f'{result.reason}')
+        else:
+            self.log.info(account.line(result))
 
     def be_exact(self, accuracy):
         """Simulate with another accuracy from now on."""
@@ -225,7 +231,12 @@ class Game:
     def diagnose(self):
         """Tell how well simulated time keeps up with the clock."""
         self.diagnosis.mark(self.world)
-        slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.paused
+        slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.stood_still
+        self.stood_still = self.paused
+        failures = self.world.failures
+        if failures > self.failures:
+            self.log.error(f'{failures} balls could not go on so far; the last: {self.world.last_failure}')
+        self.failures = failures
         if slow:
             self.log.warning(f'slower than the clock: {self.diagnosis.factor:.3g} simulated seconds a second '
                              f'instead of {self.pace.factor:g}; no tick is left out, the play is the same',

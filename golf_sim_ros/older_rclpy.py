@@ -8,8 +8,10 @@ from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_parameter_events
 
 try:
-    from rclpy.event_handler import PublisherEventCallbacks
+    from rclpy.event_handler import (PublisherEventCallbacks, SubscriptionEventCallbacks,
+                                     UnsupportedEventTypeError)
 except ImportError:
+    from rclpy.qos_event import SubscriptionEventCallbacks, UnsupportedEventTypeError  # noqa: F401
     PublisherEventCallbacks = None
 
 PERIOD = 0.2  # s from one look at who listens to the next

@@ -131,12 +131,12 @@ def rerun(world, shot, tick):
         begin(world, shot.strike)
         while not result:
             path.append(world[name])
-            result = own_result(due(world, todo, now), name)
-            if not result:
+            events = due(world, todo, now)
+            if not own_result(events, name):
+                impacts += [(now, event) for event in impacts_of(events, name)]
                 events, now = world.advance(tick), now + 1
-                impacts += [(now, event) for event in events
-                            if not isinstance(event, Result) and event.ball == name]
-                result = own_result(events, name)
+            impacts += [(now, event) for event in impacts_of(events, name)]
+            result = own_result(events, name)
     except (KeyError, TypeError, ValueError) as error:  # what was recorded does not fit
         trouble = f'{error}'
     return Rerun(path, impacts, now, world[name], result, trouble)
@@ -149,10 +149,11 @@ def begin(world, strike):
 
 
 def due(world, todo, now):
-    """Results of applying the inputs that came until tick `now`; takes them from `todo`."""
-    told = []
+    """What happens at once with the strike and the inputs until tick `now`; takes them from `todo`."""
+    told = world.happened()
     while todo and todo[0]['tick'] <= now:
-        told += applied(world, todo.pop(0))
+        aborted = applied(world, todo.pop(0))
+        told += [*world.happened(), *aborted]
     return told
 
 
@@ -168,6 +169,11 @@ def applied(world, entry):
     elif kind == 'accuracy':
         world.accuracy = entry['accuracy']
     return world.reset() if kind == 'reset' else []
+
+
+def impacts_of(events, name):
+    """The `Collision` of ball `name` among `events`."""
+    return [event for event in events if not isinstance(event, Result) and event.ball == name]
 
 
 def own_result(events, name):
@@ -268,16 +274,18 @@ def other_end(recording, shot, again):
         yield from differences(again.end, 'result', result, now)
     if shot.rest:
         rest = shot.rest
-        now = {'tick': again.end, 'status': again.result.status, **standing(again.rest)}
+        # An end within the strike was told with the tick after it, once.
+        at_once = again.end == shot.strike['tick'] == rest['tick'] - 1
+        now = {'tick': again.end + at_once, 'status': again.result.status, **standing(again.rest)}
         told = {'tick': rest['tick'], 'status': rest['status'], **rest['state']}
         yield from differences(min(again.end, rest['tick']), 'rest', told, json.loads(json.dumps(now)))
 
 
 def differences(tick, of, told, now):
-    """Differences between two dicts."""
-    for field in {**told, **now}:
-        if told.get(field) != now.get(field):
-            yield Difference(tick, f'{field} of the {of}', told.get(field), now.get(field))
+    """Differences between two dicts, in what was told then: an earlier version may have told less."""
+    for field in told:
+        if told[field] != now.get(field):
+            yield Difference(tick, f'{field} of the {of}', told[field], now.get(field))
 
 
 def timed(world, shot, tick, accuracy=None):

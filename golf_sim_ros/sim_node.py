@@ -7,7 +7,7 @@ from time import perf_counter
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import qos_policy_name_from_kind, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import SetBool, Trigger
 
 from .account import effect_lines, with_reasons
@@ -15,7 +15,7 @@ from .broadcast import Broadcast
 from .course import load_course
 from .game import Game
 from .messages import triple
-from .older_rclpy import after_set
+from .older_rclpy import after_set, SubscriptionEventCallbacks, UnsupportedEventTypeError
 from .parameters import checked, declared, PROGRAM
 from .physics import World
 from .physics.world import checked_wind
@@ -26,6 +26,8 @@ from .takeover import load_compiled, Takeover
 COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
 # Asks for the least, so it matches every publisher; only the newest wind counts.
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+LONGEST_SHOWN = 80  # characters of what was sent, in the log
+HEARTBEAT = 0.5  # s from one to the next
 EXAMPLE = '{linear: {x: 65.0, z: 14.0}, angular: {y: -280.0}}'
 
 
@@ -58,6 +60,7 @@ class SimNode(Node):
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
         self.beat = self.create_timer(1.0, self.on_beat, clock=steady)
+        self.heart = self.create_timer(HEARTBEAT, self.on_heartbeat, clock=steady)
         self.introduce()
 
     def new_world(self, given):
@@ -72,15 +75,36 @@ class SimNode(Node):
     def subscribe(self, given):
         """Open the ways in: topics, services, live parameters."""
         first = self.world.names[0]
-        self.strikes = self.create_subscription(Twist, 'shot', partial(self.on_shot, first), COMMANDS)
+        self.strikes = self.hear_strikes('shot', first)
         for name in self.world.names:
-            self.create_subscription(Twist, f'{name}/shot', partial(self.on_shot, name), COMMANDS)
+            self.hear_strikes(f'{name}/shot', name)
             self.create_subscription(PointStamped, f'{name}/place', partial(self.on_place, name), COMMANDS)
         self.create_subscription(Vector3Stamped, 'wind', self.on_wind, NEWEST)
         self.create_service(Trigger, '~/reset', self.on_reset)
         self.create_service(SetBool, '~/pause', self.on_pause)
         self.add_on_set_parameters_callback(partial(checked, given.publish_clock))
         after_set(self, self.on_parameters)
+
+    def hear_strikes(self, topic, name):
+        """Subscription to strikes of a ball; what DDS tells of those that do not arrive is told."""
+        on_strike = partial(self.on_shot, name)
+        events = {'incompatible_qos': partial(self.on_unheard, topic), 'message_lost': self.on_lost}
+        try:
+            callbacks = SubscriptionEventCallbacks(**events)
+            return self.create_subscription(Twist, topic, on_strike, COMMANDS, event_callbacks=callbacks)
+        except UnsupportedEventTypeError:  # a middleware that cannot tell
+            return self.create_subscription(Twist, topic, on_strike, COMMANDS)
+
+    def on_unheard(self, topic, event):
+        """Warn of a publisher of strikes that is not heard."""
+        if event.total_count_change > 0:
+            policy = qos_policy_name_from_kind(event.last_policy_kind)
+            self.get_logger().warning(f'a publisher of {topic} is not heard: its {policy} does not match; '
+                                      'strikes must be published reliable')
+
+    def on_lost(self, event):
+        """Count strikes that arrived and were dropped before anybody saw them."""
+        self.game.diagnosis.strikes_lost += event.total_count_change
 
     def introduce(self):
         """Tell in the log what is played, what is simulated, and how to strike."""
@@ -120,7 +144,8 @@ class SimNode(Node):
         frame = message.header.frame_id
         if frame in ('', self.frame):
             return True
-        self.refusals.warn(kind, f'frame {frame!r} is not {self.frame!r}')
+        shown = frame if len(frame) <= LONGEST_SHOWN else f'{frame[:LONGEST_SHOWN]}...'
+        self.refusals.warn(kind, f'frame {shown!r} is not {self.frame!r}')
         return False
 
     def on_viewer(self):
@@ -173,6 +198,10 @@ class SimNode(Node):
         self.game.step()
         if self.game.asleep:
             self.timer.cancel()
+
+    def on_heartbeat(self):
+        """Tell that the node is there; one that hangs does not."""
+        self.game.broadcast.tell_heartbeat(self.game.shots, self.game.paused)
 
     def on_beat(self):
         """Once a second, moving or not: everything, and how the simulation does."""

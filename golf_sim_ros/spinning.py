@@ -11,7 +11,7 @@ from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
 
 from .command_line import answered, explained
-from .environment import complete_environment
+from .environment import complete_environment, unsafe
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -62,6 +62,9 @@ def run(make_node, program, args=None):
     """
     ending = Ending()
     complete_environment()
+    if unsafe():
+        print(f'golf_sim_ros: {unsafe()}', file=sys.stderr)
+        return 1
     try:
         code = answered(program, args)
         if code is not None:

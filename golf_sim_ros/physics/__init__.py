@@ -20,13 +20,13 @@ from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
 from .play import Play, check_hole, ground_height, simulate, simulate_many
 from .report import Collision, Result
 from .state import Phase, Shot
-from .world import BallState, Rejected, World
+from .world import BallState, NoPlace, Rejected, World, check_tee
 
 __all__ = [
     'ACCURACY', 'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS',
     'ENGINES', 'EngineUnavailable', 'Heightmap',
-    'LogProfile', 'METHODS', 'Material', 'Mesh', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
+    'LogProfile', 'METHODS', 'Material', 'Mesh', 'NoPlace', 'PENNER', 'Patch', 'Phase', 'Plane', 'Play',
     'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot', 'Sphere', 'UniformProfile',
-    'Water', 'World', 'Zone', 'check_hole', 'cycles_now',
+    'Water', 'World', 'Zone', 'check_hole', 'check_tee', 'cycles_now',
     'ground_height', 'register_effect', 'rolling_resistance_of_stimp',
     'simulate', 'simulate_many', 'standard_atmosphere']

@@ -17,12 +17,13 @@ from .effects import blow
 from .ground import surface
 from .impact import cross_border, meet
 from .piece import LONGEST_SHOT, drift, launch, lay_next, read, stop_slip
-from .shot import end_shot, keep_end, keep_highest, tee_off, tell_gone
+from .shot import (NOT_FINITE, end_shot, fail, fault, is_finite, keep_end, keep_highest, tee_off,
+                   tell_gone)
 from .splash import drown, emerge, is_over, splash
 from .state import (BALL_STOPS, BORDER, ENDED, FLIGHT, HIT, HOLED, LAUNCH, LOST, MEETING, OUT, REST,
                     SHOT_ENDS, SLIP_STOPS, SPLASH, STEP, TIME_LIMIT, WATER, moves)
 from .together import disperse, enlist
-from .vector import ZERO, along, put, unit, vector
+from .vector import ZERO, put, unit, vector
 
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'
@@ -34,7 +35,8 @@ EVENTS_A_BALL = 3  # that one piece's end can log, but for impacts of balls
 def advance(model, balls, until, crowd, log):
     """Advance `balls` to the time `until` [s]. Writes balls, crowd and log.
 
-    Returns DONE, or LOG_FULL when `log` must be emptied before going on.
+    Returns DONE, or LOG_FULL when `log` must be emptied before going on: it is full, or a shot has ended,
+    which is to be told before anything else happens to its ball.
     """
     return run(borrowed(model), borrowed(balls), until, borrowed(crowd), borrowed(log))
 
@@ -50,7 +52,7 @@ def run(model, balls, until, crowd, log):
         i = first_due(crowd, until)
         if i < 0:
             break
-        if 2 * log.count[0] > len(log.events):
+        if log.count[1] or 2 * log.count[0] > len(log.events):
             return LOG_FULL
         now = balls[i]['end']
         since = book(crowd, NEIGHBOURS, since)
@@ -60,7 +62,8 @@ def run(model, balls, until, crowd, log):
         since = book(crowd, stage, since)
         for k in range(crowd.count[MEMBERS]):
             finish(model, balls[crowd.members[k]], crowd.members[k], now, log)
-            since = lay(model, balls, crowd.members[k], now, crowd, since)
+            lay(model, balls[crowd.members[k]], crowd.members[k], now, log)
+            since = note(balls, crowd.members[k], model.land.ball.radius, crowd, since)
         for k in range(crowd.count[MEMBERS]):
             look_out(balls, crowd.members[k], model.land.ball.radius, now, crowd)
         disperse(crowd)
@@ -118,13 +121,19 @@ def resolve(model, balls, i, crowd, log):
 @kernel
 def finish(model, ball, number, now, log):
     """End the shot of a ball that has stopped, is lost, or has been on its way for too long."""
-    if moves(ball['phase']) and is_out(model, ball):
+    if not is_finite(ball):
+        fail(ball, number, now, NOT_FINITE, log)
+    before = ball['phase']
+    if moves(before) and is_below(model.land.ground, ball, model.land.ball.radius):
         ball['phase'] = OUT
-        tell_gone(ball, number, now, log)
     elif is_over(model.land, ball):
         drown(ball)
-    elif ball['phase'] == REST and is_in_hole(model, ball):
+    elif before == REST and is_in_hole(model, ball):
         ball['phase'] = HOLED
+    if is_out(model.land.ground, ball, model.land.ball.radius):
+        ball['phase'] = OUT
+    if ball['phase'] == OUT and before != OUT:
+        tell_gone(ball, number, now, log)
     is_lost = ball['phase'] == OUT or ball['phase'] == WATER
     if is_lost and ball['knocked'] and not ball['playing']:
         ball['knocked'] = 0
@@ -134,12 +143,22 @@ def finish(model, ball, number, now, log):
 
 
 @kernel
-def lay(model, balls, i, now, crowd, since):
-    """Lay ball `i`'s next piece. Writes piece and crowd. Returns the cycles at its end; see `book`."""
-    lay_next(model, balls[i], now)
+def lay(model, ball, number, now, log):
+    """Lay the ball's next piece; if it can't go on, its shot fails. Writes piece."""
+    lay_next(model, ball, now)
+    if moves(ball['phase']):
+        why = fault(ball, now)
+        if why:
+            fail(ball, number, now, why, log)
+            lay_next(model, ball, now)
+
+
+@kernel
+def note(balls, i, radius, crowd, since):
+    """Take note of ball `i`'s new piece. Writes crowd. Returns the cycles at its end; see `book`."""
     since = book(crowd, stage_of(balls[i]), since)
     crowd.ends[i] = balls[i]['end']
-    others.note(crowd, balls, i, model.land.ball.radius)
+    others.note(crowd, balls, i, radius)
     return book(crowd, NEIGHBOURS, since)
 
 
@@ -182,17 +201,20 @@ def look_out(balls, i, radius, now, crowd):
 
 
 @kernel
-def is_out(model, ball):
-    """Whether the ball fell below all ground, or is on ground or water outside the bounds."""
-    ground = model.land.ground
-    if ball['water'] == 0 and not ball['position'][2] >= ground.lowest - 10.0 * model.land.ball.radius:
-        return True  # not a number, too: whatever went wrong, the shot is over
-    if ball['phase'] == FLIGHT and ball['ending'] != HIT and ball['ending'] != SPLASH:
+def is_below(ground, ball, radius):
+    """Whether the ball fell below all ground."""
+    return ball['water'] == 0 and ball['position'][2] < ground.lowest - 10.0 * radius
+
+
+@kernel
+def is_out(ground, ball, radius):
+    """Whether a ball that was struck, or set off by another, has come to rest out of bounds.
+
+    It is out if all of it is (Rules of Golf 18.2a(2)); one that is still moving may come back.
+    """
+    if not (ball['playing'] or ball['knocked']) or ball['phase'] != REST and ball['phase'] != WATER:
         return False
-    # On the line itself, where it is heading decides.
-    heading = unit(vector(ball['velocity']), ZERO)
-    ahead = along(vector(ball['position']), surface.LOOK_AHEAD, heading)
-    return not surface.in_bounds(ground, ahead[0], ahead[1])
+    return surface.out_of_bounds(ground, ball['position'][0], ball['position'][1]) >= radius
 
 
 @kernel
@@ -225,7 +247,7 @@ def play_all(model, ball, strikes, gusts, crowd, log):
         blow(model.effects, vector(gusts[0, 1:4]))
         gust = 1
         while one[0]['playing']:
-            log.count[0] = 0
+            log.count[:] = 0
             until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
             if run(model, one, until, crowd, log) == DONE and gust < len(gusts):
                 blow(model.effects, vector(gusts[gust, 1:4]))

@@ -10,6 +10,9 @@ from .course import Course
 from .engine import LOG, Program
 from .jit.build import READY
 from .report import summary
+from .shot import NOT_FINITE, fail, keep_end, tee_off
+from .state import ENDED
+from .together import disperse
 from .world import World
 
 PART = 5000  # shots between two looks at the progress
@@ -56,9 +59,28 @@ def played(batch, strikes, progress=None):
     world = world_of(batch)
     play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    ends = [play(world._model, world._balls, part, batch.gusts, world._crowd, world._log)
-            for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
-    return summary(np.concatenate(ends), batch.course.hole, world._materials)
+    scene = world._model, world._balls, batch.gusts, world._crowd, world._log
+    found = [ends(play, scene, part)
+             for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
+    return summary(np.concatenate(found), batch.course.hole, world._materials)
+
+
+def ends(play, scene, strikes):
+    """Ends of `strikes`, an `ENDED` array. Where plain Python refuses to calculate, that shot has failed."""
+    model, balls, gusts, crowd, log = scene
+    try:
+        with np.errstate(all='ignore'):
+            return play(model, balls, strikes, gusts, crowd, log)
+    except (ArithmeticError, ValueError):
+        disperse(crowd)
+        if len(strikes) > 1:
+            return np.concatenate([ends(play, scene, part) for part in np.array_split(strikes, 2)])
+    ball, end = balls[0].copy(), np.empty(1, ENDED)
+    ball['velocity'], ball['spin'] = strikes[0, :3], strikes[0, 3:]
+    tee_off(ball, 0.0)
+    fail(ball, 0, 0.0, NOT_FINITE, log)
+    keep_end(ball, end[0])
+    return end
 
 
 def progress_bar(parts, total):

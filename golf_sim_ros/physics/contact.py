@@ -19,7 +19,8 @@ from .vector import ZERO, add, along, cross, dot, length, put, scale, sub, unit,
 
 LONGEST = 10.0  # s of one piece
 UNHURRIED = 0.1  # s: a shorter piece must be the more exact, as velocity errs by a path's error over its time
-ROUNDING = 1e-12  # m: no curve is nearer than this to a closed form
+ROUNDING = 1e-12  # m: no curve is nearer than this to a closed form,
+RELATIVE_ROUNDING = 1e-15  # or than this share of how far away it is
 
 
 @kernel
@@ -137,11 +138,13 @@ def flat_piece(land, ball, now):
     if unwinding > 0.0 and turning != 0.0:
         horizon = min(horizon, abs(turning) / unwinding)
     end = reach(motion, horizon)
+    x = ball['position']
+    rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
     while True:
         lay_glide(land, ball, motion, coast, end, turning, unwinding)
         middle = braked.half_way(motion, end)
-        allowed = max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), ROUNDING)
-        if off_path(ball, motion, coast, middle) <= allowed:
+        allowed = max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), ROUNDING, rounding)
+        if not off_path(ball, motion, coast, middle) > allowed:
             break
         end = middle
     ball['ending'] = STEP

@@ -328,7 +328,7 @@ def edge_lasts(ground, part, ball, until):
 def first_border(ground, ball, radius, until):
     """First time, at most `until`, at which the piece crosses a border in plan, and whether so.
 
-    It is the ball's foot that crosses; at the course's bounds, its centre.
+    It is the ball's foot that crosses.
     """
     best = until
     crosses = False
@@ -339,9 +339,8 @@ def first_border(ground, ball, radius, until):
         border = ground.borders[i]
         end_x = border['start'][0] + border['length'] * border['direction'][0]
         end_y = border['start'][1] + border['length'] * border['direction'][1]
-        shift = 0.0 if border['bounds'] else -radius
-        dx = shift * ball['normal'][0]
-        dy = shift * ball['normal'][1]
+        dx = -radius * ball['normal'][0]
+        dy = -radius * ball['normal'][1]
         room = border['radius']
         if (x[1] + dx < min(border['start'][0], end_x) - room
                 or x[0] + dx > max(border['start'][0], end_x) + room

@@ -65,7 +65,8 @@ def meet(land, balls, i, now, crowd, log):
     rebound = max(dot(vector(ball['velocity']), normal), 0.0)
     if approach > WORTH_TELLING:
         tell(land, ball, i, now, normal, number, before, log)
-    ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else 0
+    # A single longer piece among many short ones is no way out: on two lips they come in waves.
+    ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < STALL else max(ball['stalled'] - 1, 0)
     after_impact(land, ball, now, (supported, approach, rebound), normal, material)
     if ball['piled']:
         leave(ball)

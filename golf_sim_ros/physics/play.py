@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Shots from strike to rest: one with its path, or many with their figures."""
-from itertools import repeat
+from concurrent.futures import BrokenExecutor, CancelledError
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -115,12 +116,14 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     Returns
     -------
     ndarray, (n,)
-        Structured, with the fields of `Result` but shot, ball, time and reason.
+        Structured, with the fields of `Result` but shot, ball, time, reason, stroke and penalty.
 
     Raises
     ------
     ValueError
         A shape is not (n, 3), or a shot can't be played: the message says which and why.
+    RuntimeError
+        A worker of the executor ended before its shots were played.
     """
     strikes = checked_strikes(velocities, spins)
     gusts = checked_gusts(wind)
@@ -130,9 +133,14 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
         batch = batch._replace(engine=batch_engine(batch, len(strikes)))
     if executor is None:
         return played(batch, strikes, progress)
-    parts = [part for part in np.array_split(strikes, chunks) if len(part)]
-    done = executor.map(played, repeat(batch), parts)
-    return np.concatenate(list(progress(done, total=len(parts))))
+    parts = [part for part in np.array_split(strikes, chunks) if len(part)] or [strikes]
+    try:
+        # One argument: some executors want to know how many there are.
+        done = executor.map(partial(played, batch), parts)
+        return np.concatenate(list(progress(done, total=len(parts))))
+    except (BrokenExecutor, CancelledError) as error:
+        raise RuntimeError(f'a worker of {type(executor).__name__} ended before its shots were played: '
+                           f'{" ".join(str(error).split())}') from error
 
 
 def checked_strikes(velocities, spins):

@@ -5,6 +5,7 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from .shot import ENDLESS, MOST_PIECES, NOT_FINITE
 from .state import Phase, plain_rows
 
 
@@ -33,11 +34,12 @@ class Result(NamedTuple):
 
     ``carry`` and ``total``: horizontal distance from the strike to the first contact and to the
     end; ``carry_side``, ``side``: the same points' distance from the vertical plane of the launch,
-    left positive; ``apex``: greatest height over the strike; ``flight_time`` and ``duration``: to
-    the first contact and to the end; ``to_hole``: horizontal distance left; ``lie``: material under
-    the ball; ``landing_angle``: below the horizontal, positive downward; ``bounces``: impacts with
-    the ground over 0.1 m/s; ``time``: when it ended; ``position``: where; ``velocity``, ``spin``:
-    the strike as received.
+    left positive; ``apex``: greatest height over the strike before the first contact; ``flight_time``
+    and ``duration``: to the first contact and to the end; ``to_hole``: horizontal distance left;
+    ``lie``: material under the ball; ``landing_angle``: below the horizontal, positive downward;
+    ``bounces``: impacts with the ground over 0.1 m/s; ``time``: when it ended; ``position``: where;
+    ``velocity``, ``spin``: the strike as received; ``stroke``: its number with this ball since that was
+    teed; ``penalty``: strokes that its end costs, 1 in water and out of bounds.
     """
 
     shot: int
@@ -60,10 +62,16 @@ class Result(NamedTuple):
     velocity: tuple
     spin: tuple
     reason: str = ''
+    stroke: int = 1
+    penalty: int = 0
 
 
+COSTS = ('water', 'out_of_bounds')  # a stroke: Rules of Golf 17.1d and 18.2b
 KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.laws.sort
-STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds'}
+STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds',
+          Phase.FAILED: 'failed'}
+FAULTS = {NOT_FINITE: 'its motion was not a number any more',
+          ENDLESS: f'its path took more than {MOST_PIECES} pieces in a second'}
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
 ENDED_AS = np.array([STATUS.get(phase, MOVING) for phase in Phase])
@@ -121,7 +129,15 @@ def result(ball, name, time, hole, lies):
     """`Result` of the shot of a `ball` record, which ended at the world's `time`."""
     figures = dict(zip(SUMMARY.names, *plain_rows(summary(ball[np.newaxis], hole, lies))))
     figures['to_hole'] = None if hole is None else figures['to_hole']
-    return Result(shot=int(ball['shot']), ball=name, time=time, **figures)
+    return Result(shot=int(ball['shot']), ball=name, time=time, reason=failure(ball),
+                  stroke=int(ball['strokes']), penalty=int(figures['status'] in COSTS), **figures)
+
+
+def failure(ball):
+    """Why the shot of a `ball` record failed, or ''."""
+    if ball['phase'] != Phase.FAILED:
+        return ''
+    return FAULTS[int(ball['failed'])] + f', {ball["ended"] - ball["struck"]:.9g} s after the strike'
 
 
 MOST_SPEED = 150.0  # m/s

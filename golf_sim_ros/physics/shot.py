@@ -2,16 +2,20 @@
 """What is kept of a shot on its way, for its result."""
 from . import path
 from .jit import entry, kernel
-from .state import FLIGHT, GONE, LAUNCH, REST, moves, next_event
+from .state import FAILED, FLIGHT, GONE, LAUNCH, LOST, REST, SHOT_ENDS, moves, next_event
 from .vector import ZERO, put, vector
 
+NOT_FINITE, ENDLESS = 1, 2  # why a shot fails
+# Of a ball's path in a second of it: what several surfaces hold takes 5 000 (caught.py), and nothing in
+# `make hard` takes more than 5 100. A hundred times that are some seconds of a processor's time.
+MOST_PIECES = 510_000
 TOP = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
 
 
 @kernel
 def keep_highest(ball):
-    """Keep the greatest height that the ball reaches on its piece of flight. Writes highest."""
-    if ball['phase'] != FLIGHT:
+    """Keep the greatest height that the ball reaches in flight before its first contact. Writes highest."""
+    if ball['phase'] != FLIGHT or ball['landed']:
         return
     if path.span_along(ball, 2)[1] <= ball['highest']:
         return
@@ -75,6 +79,46 @@ def end_shot(ball, number, now, kind, log):
     event['time'] = now
     event['ball'] = number
     event['kind'] = kind
+    log.count[1] = 1
+
+
+@kernel
+def fault(ball, now):
+    """Why the ball can't go on with the piece that it has got at `now`, or 0. Writes counted_from, pieces."""
+    if not 0.0 <= now - ball['counted_from'] < 1.0:
+        ball['counted_from'] = now
+        ball['pieces'] = 0
+    ball['pieces'] += 1
+    if ball['pieces'] > MOST_PIECES:
+        return ENDLESS
+    w = ball['path']
+    s = ball['twist']
+    total = ball['end'] - ball['begin'] + ball['span']
+    for k in range(3):
+        total += w[1, k] + w[2, k] + w[3, k] + w[4, k] + w[5, k] + s[1, k] + s[2, k] + s[3, k]
+    return 0 if total - total == 0.0 else NOT_FINITE
+
+
+@kernel
+def is_finite(ball):
+    """Whether the ball's position, velocity and spin are numbers."""
+    x = ball['position']
+    v = ball['velocity']
+    w = ball['spin']
+    total = x[0] + x[1] + x[2] + v[0] + v[1] + v[2] + w[0] + w[1] + w[2]
+    return total - total == 0.0
+
+
+@kernel
+def fail(ball, number, now, why, log):
+    """End the way of a ball that can't go on, where it was struck. Writes motion, phase, failed; logs it."""
+    ball['failed'] = why
+    ball['phase'] = FAILED
+    ball['knocked'] = 0
+    put(ball['position'], vector(ball['struck_at']))
+    put(ball['velocity'], ZERO)
+    put(ball['spin'], ZERO)
+    end_shot(ball, number, now, SHOT_ENDS if ball['playing'] else LOST, log)
 
 
 @kernel
@@ -130,3 +174,6 @@ def tee_off(ball, now):
     ball['landed'] = 0
     ball['bounces'] = 0
     ball['over_time'] = 0
+    ball['failed'] = 0
+    ball['counted_from'] = now
+    ball['pieces'] = 0

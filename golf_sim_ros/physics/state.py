@@ -23,10 +23,11 @@ class Phase(IntEnum):
     HOLED = 4
     WATER = 5
     OUT = 6
+    FAILED = 7
 
 
 # Plain integers for kernels.
-REST, FLIGHT, SLIDE, ROLL, HOLED, WATER, OUT = (int(phase) for phase in Phase)
+REST, FLIGHT, SLIDE, ROLL, HOLED, WATER, OUT, FAILED = (int(phase) for phase in Phase)
 
 
 class Shot(NamedTuple):
@@ -73,6 +74,10 @@ BALL = np.dtype([
     ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
     ('bounces', 'i8'), ('stalled', 'i8'), ('stuck', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
+    # why its shot failed; since when, for a second, its pieces are counted, and how many they are
+    ('failed', 'i8'), ('counted_from', 'f8'), ('pieces', 'i8'),
+    # how often it was struck since it was teed
+    ('strokes', 'i8'),
 ], align=True)
 
 TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
@@ -84,7 +89,8 @@ ENDED = np.dtype([(name, BALL[name]) for name in (
 
 OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its piece
 # What counts of all else if the ball does not move: the rest is written when it sets off.
-STANDING = ('phase', 'support', 'material', 'normal', 'tail_end', 'tail_press', 'tail_air', 'leans')
+STANDING = ('phase', 'support', 'material', 'normal', 'tail_end', 'tail_press', 'tail_air', 'leans',
+            'strokes')
 PRESSED = ('pressing', 'pressed_by', 'pressed')  # the same of a ball that is not in a pile
 
 
@@ -123,7 +129,7 @@ def restored(values):
     ball = np.zeros((), BALL)
     ball['end'] = np.inf
     for name, value in values.items():
-        ball[name] = value
+        ball[name] = np.array(value, BALL[name].base)  # 'nan' and 'inf', too, are numbers
     return ball
 
 
@@ -141,7 +147,7 @@ EVENT = np.dtype([
 
 
 class Log(NamedTuple):
-    """Events of one call: ``events[:count[0]]`` are filled."""
+    """Events of one call: ``events[:count[0]]`` are filled; ``count[1]``: whether a shot has ended."""
 
     events: np.ndarray
     count: np.ndarray
@@ -149,7 +155,7 @@ class Log(NamedTuple):
 
 def new_log(capacity=64):
     """Empty `Log` for up to `capacity` events."""
-    return Log(np.zeros(capacity, EVENT), np.zeros(1, np.int64))
+    return Log(np.zeros(capacity, EVENT), np.zeros(2, np.int64))
 
 
 @kernel

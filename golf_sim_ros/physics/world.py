@@ -2,7 +2,7 @@
 """A course with balls on it, in time."""
 from functools import partial
 import re
-from math import cos, inf, isfinite, pi, sin
+from math import atan2, cos, hypot, inf, isfinite, pi, sin
 from typing import NamedTuple
 
 import numpy as np
@@ -10,28 +10,37 @@ import numpy as np
 from . import model as model_
 from .accuracy import preset
 from .advance import LOG_FULL, STAGES
-from .crowd import AGE, scratch
+from .crowd import AGE, MEMBERS, scratch
 from .detect import PILE_NEAR
 from .engine import PYTHON, Program, checked_engine, compiled
 from .effects import Scene, choose
 from .ground import surface
+from .ground.solid import FLAGSTICK_RADIUS, without
 from .jit.build import Part
-from .report import KINDS, Collision, objection, result, three
-from .shot import tee_off
-from .state import (BALL, BUMP, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
-                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, new_log, plain, plain_rows, restored)
+from .report import KINDS, Collision, failure, objection, result, three
+from .shot import NOT_FINITE, fail, tee_off
+from .state import (BALL, BUMP, FAILED, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
+                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, moves, new_log, plain, plain_rows, restored)
 from .vector import ZERO
 
 APART = 0.5  # m between balls on the tee
 CLEAR = 2.2  # radii from centre to centre, of a ball that is dropped beside another
+FARTHEST = 1e6  # m: as in course files
 FALL = 1e4  # m: how far down ground is looked for
 RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
 PHASES = tuple(Phase)
 MOST_WIND = 100.0  # m/s
+PLACE_ANEW = ': place it anew, or reset'
+GONE_FOR = {HOLED: 'holed' + PLACE_ANEW, OUT: 'out of bounds' + PLACE_ANEW,
+            WATER: 'in the water' + PLACE_ANEW}
 
 
 class Rejected(ValueError):
     """A strike that can't be taken; the message says why."""
+
+
+class NoPlace(ValueError):
+    """A ball can't be put there; the message says why."""
 
 
 class BallState(NamedTuple):
@@ -64,7 +73,7 @@ class World:
     Raises
     ------
     ValueError
-        An unknown effect, accuracy or engine, a bad name, no ground under the tee.
+        An unknown effect, accuracy or engine, a bad name, no place for the balls at the tee.
     jit.Unavailable
         There is no compiled engine here.
     """
@@ -78,7 +87,10 @@ class World:
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
         self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
         self._materials = model_.material_names(course)
-        self._log, self._events, self._now, self._shots = new_log(64 + 16 * len(self.names)), [], 0.0, 0
+        self._log, self._events, self._now = new_log(64 + 16 * len(self.names)), [], 0.0
+        self.failures, self.last_failure = 0, ''  # of balls that could not go on: how many, and why
+        self.shots = 0  # strikes that were taken; each is the number of its `Result`
+        self._pegs = {}  # where each ball was teed, by number
         self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
         engine = checked_engine(engine)
@@ -103,11 +115,17 @@ class World:
         self._records = self._chosen.with_dormant(self._scene) if keeps_dormant else self._chosen.records
 
     def _tee_up(self):
-        """Put all balls side by side on the tee."""
+        """Put all balls side by side on the tee, where pegs hold them until they are struck or hit."""
         self._balls['phase'], self._balls['end'] = HOLED, inf  # nowhere, until they are there
-        middle = 0.5 * (len(self.names) - 1)
+        self._balls['strokes'] = 0
+        apart = max(APART, CLEAR * self.course.ball.radius)
         for i, name in enumerate(self.names):
-            self.place(name, (self.course.tee[0], self.course.tee[1] + APART * (i - middle)))
+            aside = apart * (i - 0.5 * (len(self.names) - 1))
+            try:
+                self._put(i, (self.course.tee[0], self.course.tee[1] + aside))
+            except NoPlace as error:
+                raise NoPlace(unfit(self.course.tee, self.names, i, error)) from None
+            self._pegs[i] = three(self._balls[i]['position'])
 
     @property
     def effects_on(self):
@@ -226,12 +244,16 @@ class World:
     def place(self, name, position, velocity=None, spin=None):
         """Put a ball down: at (x, y) on the ground there, or exactly at (x, y, z).
 
+        At (x, y) it comes down beside the flagstick where that stands in its way into the hole, and on no
+        obstacle: where there is one, it is refused.
+
         With a `velocity` [m/s] or `spin` [rad/s] it sets off, without being struck.
 
         Raises
         ------
         ValueError
-            Not finite, no ground at (x, y), inside the ground or another ball, or in water.
+            Not finite or over 1e6 m away, no ground at (x, y), inside anything solid or another ball, in
+            water.
         """
         number = self._number(name)
         ball = self._balls[number]
@@ -239,16 +261,29 @@ class World:
         velocity = ZERO if velocity is None else tuple(map(float, velocity))
         spin = ZERO if spin is None else tuple(map(float, spin))
         if not all(map(isfinite, (*position, *velocity, *spin))):
-            raise ValueError(f'position {position}, velocity {velocity} or spin {spin} is not finite')
+            raise NoPlace(f'position {position}, velocity {velocity} or spin {spin} is not finite')
+        if max(map(abs, position)) > FARTHEST:
+            raise NoPlace(f'position {position} is farther away than {FARTHEST:g} m')
+        self._put(number, position)
+        self._set_off(ball, velocity, spin)
+
+    def _put(self, number, position):
+        """Put the ball of that number down, at rest, where it is free."""
+        ball = self._balls[number]
         trial = ball.copy()
         self._put_down(trial, position)
         if not self._is_free(number, three(trial['position'])):
-            raise ValueError(f'position {position} is taken by another ball')
+            raise NoPlace(f'position {position} is taken by another ball')
         self._settle_clock()
         self._let_lean_no_more(number)
+        self._crowd.count[AGE] = len(self.names)
+        if ball['phase'] == HOLED:  # the next hole begins
+            trial['strokes'] = 0
         self._balls[number] = trial
-        ball['playing'] = ball['knocked'] = 0
-        self._set_off(ball, velocity, spin)
+        ball['phase'], ball['end'] = REST, inf
+        for name in ('playing', 'knocked', 'water', 'leans', 'piled', 'tail_end'):
+            ball[name] = 0
+        ball['struck'], ball['struck_at'] = self._now, ball['position']
 
     def _let_lean_no_more(self, number):
         """Let the balls set off that lean on one at rest: it is taken away."""
@@ -261,22 +296,30 @@ class World:
         balls['knocked'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
 
     def _put_down(self, ball, position):
-        depth = 0.0
-        if len(position) == 2:
-            position, depth = self._above(*position)
-        touches, inside, wet = self._engine.put_down(self._model, ball, position, depth)
-        if depth and not touches:
-            raise ValueError(f'no ground at x {position[0]:g}, y {position[1]:g}')
+        """Put a `ball` record at x, y, z, or on the ground at x, y; `NoPlace` where it can't be."""
+        bare = self._model._replace(land=self._model.land._replace(ground=without(self._model.land.ground)))
+        put_down = self._engine.put_down
+        x, y, *exact = position
+        if not exact:
+            x, y = self._beside_flagstick(x, y)
+        place = position if exact else lowered(put_down, bare, ball, (x, y))
+        _, inside, wet = put_down(self._model, ball, place, 0.0)
         if inside > surface.SAME_HEIGHT:
-            raise ValueError(f'position {position} lies {inside:.3g} m deep in the ground')
+            _, in_ground, _ = put_down(bare, ball, place, 0.0)
+            what = 'the ground' if in_ground > surface.SAME_HEIGHT else 'an obstacle or the flagstick'
+            raise NoPlace(f'position {position} lies {inside:.3g} m deep in {what}')
         if wet:
-            raise ValueError(f'position {position} lies in water')
+            raise NoPlace(f'position {position} lies in water')
 
-    def _above(self, x, y):
-        """Place over all ground at x, y, and how far down from there ground may lie."""
-        ground, radius = self._model.land.ground, self._model.land.ball.radius
-        highest = max(surface.look_down(ground, x, y)[0], ground.highest) + 3 * radius
-        return (x, y, highest), min(highest - ground.lowest + 3 * radius, FALL)
+    def _beside_flagstick(self, x, y):
+        """x, y in the hole, moved to where a ball drops in beside the flagstick; any other as they are."""
+        ground, radius, course = self._model.land.ground, self._model.land.ball.radius, self.course
+        away = hypot(x - course.hole[0], y - course.hole[1]) if course.hole else inf
+        room = FLAGSTICK_RADIUS + radius + surface.SAME_HEIGHT
+        if not course.flagstick or away >= room or room + radius > ground.hole[2]:
+            return x, y
+        towards = atan2(y - course.hole[1], x - course.hole[0])
+        return course.hole[0] + room * cos(towards), course.hole[1] + room * sin(towards)
 
     def _set_off(self, ball, velocity, spin):
         ball['velocity'], ball['spin'] = velocity, spin
@@ -295,13 +338,13 @@ class World:
         velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))
         reason = objection(velocity, spin)
         if not reason and ball['phase'] != REST:
-            holed = ball['phase'] == HOLED
-            reason = f'ball {name} is ' + ('holed: place it anew, or reset' if holed else 'in motion')
+            reason = f'ball {name} is {GONE_FOR.get(int(ball["phase"]), "in motion")}'
         if reason:
             raise Rejected(reason)
         self._settle_clock()
-        self._shots += 1
-        ball['shot'], ball['velocity'], ball['spin'] = self._shots, velocity, spin
+        self.shots += 1
+        ball['shot'], ball['velocity'], ball['spin'] = self.shots, velocity, spin
+        ball['strokes'] += 1
         tee_off(ball, self._now)
         self._let_happen(self._now)
 
@@ -347,6 +390,17 @@ class World:
         self._let_happen(self._now + dt)
         self.time += dt
         self._now += dt
+        return self.happened()
+
+    def happened(self):
+        """Take what a strike, a place or a reset has let happen at once; else `advance` returns it first.
+
+        A ball that is struck too weakly to move ends its shot within the strike.
+
+        Returns
+        -------
+        list of Collision and Result
+        """
         events, self._events = self._events, []
         return events
 
@@ -354,17 +408,46 @@ class World:
         """Run the engine up to `until` on the paths' clock, and keep what it tells."""
         if self._balls['end'].min() == inf:  # nothing will ever end: all balls rest
             return
-        start, run = self.time - self._now, self._engine.advance
+        start = self.time - self._now
+        while True:
+            status = self._run(until)
+            self._events += self._told(start)
+            if status == LOG_FULL:
+                continue
+            if not self._lost:
+                break
+            for number in self._lost:
+                self._drop(number, until)
+            self._lost.clear()
+
+    def _run(self, until):
+        """Run the engine; where plain Python refuses to calculate, the balls at hand have failed.
+
+        Compiled code goes on with what is not a number, and finds it.
+        """
+        run = self._engine.advance
         if self._program:
             run = partial(self._program.timed, run)
-        while True:
-            status = run(self._model, self._balls, until, self._crowd, self._log)
-            self._events += self._told(start)
-            if status != LOG_FULL:
-                break
-        for number in self._lost:
-            self._drop(number, until)
-        self._lost.clear()
+        try:
+            with np.errstate(all='ignore'):
+                return run(self._model, self._balls, until, self._crowd, self._log)
+        except (ArithmeticError, ValueError):
+            at_hand = self._crowd.members[:self._crowd.count[MEMBERS]].tolist()
+            if not at_hand:
+                raise
+        self._fail(at_hand, min(until, self._crowd.ends[at_hand[0]]))
+        return LOG_FULL
+
+    def _fail(self, numbers, now):
+        """Let the balls of these `numbers` that move, the first one at least, have failed."""
+        for number in numbers:
+            ball = self._balls[number]
+            if number == numbers[0] or moves(ball['phase']):
+                fail(ball, number, now, NOT_FINITE, self._log)
+                ball['end'] = inf
+            self._crowd.places[number] = -1
+        self._crowd.count[:AGE] = 0, 0
+        self._crowd.count[AGE] = len(self.names)
 
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
@@ -376,9 +459,12 @@ class World:
             elif kind != LOST:
                 what = self._hit(kind, other, sort)
                 events.append(Collision(start + time, name, *what, *vectors))
-            if kind == LOST or kind == SHOT_ENDS and ball['phase'] in (WATER, OUT):
+            if kind == LOST or kind == SHOT_ENDS and ball['phase'] in (WATER, OUT, FAILED):
                 self._lost.append(number)
-        self._log.count[0] = 0
+            if kind in (LOST, SHOT_ENDS) and ball['phase'] == FAILED:
+                ball['strokes'] -= kind == SHOT_ENDS  # the next one has the same number
+                self.failures, self.last_failure = self.failures + 1, f'{name}: {failure(ball)}'
+        self._log.count[:] = 0
         return events
 
     def _hit(self, kind, other, sort):
@@ -397,6 +483,7 @@ class World:
         """
         ball = self._balls[number]
         self._crowd.count[AGE] = len(self.names)  # where it was is not where it will be
+        is_held = ball['phase'] == FAILED or three(ball['struck_at']) == self._pegs[number]
         ball['phase'], ball['end'] = REST, inf
         ball['playing'] = ball['knocked'] = ball['water'] = ball['leans'] = ball['piled'] = 0
         for x, y, z, lower in spots(three(ball['struck_at']), self._model.land.ball.radius):
@@ -407,6 +494,8 @@ class World:
                     break
         else:
             self._engine.put_down(self._model, ball, three(ball['struck_at']), 0.0)
+        if not is_held:
+            ball['end'], ball['ending'] = now, LAUNCH
         moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL)) & (self._balls['piled'] == 0)
         self._balls['end'][moving], self._balls['ending'][moving] = now, STEP
 
@@ -466,6 +555,31 @@ class World:
         self._balls['support'] = NO_PART
         self._tee_up()
         return aborted
+
+
+def lowered(put_down, model, ball, place):
+    """Place of a `ball` record that comes down on the ground of `model` at a place, x, y. Writes the ball."""
+    x, y = place
+    ground, radius = model.land.ground, model.land.ball.radius
+    for room in (3 * radius, 30 * radius, 300 * radius):  # over a steep plane a ball touches higher up
+        top = max(surface.look_down(ground, x, y)[0], ground.highest) + room
+        touches, inside, _ = put_down(model, ball, (x, y, top), min(top - ground.lowest + room, FALL))
+        if touches and inside <= surface.SAME_HEIGHT:
+            return three(ball['position'])
+    raise NoPlace(f'no ground at x {x:g}, y {y:g}')
+
+
+def unfit(tee, names, number, reason):
+    """Why the ball of that number can't be teed up: with others, it is they that do not fit there."""
+    if len(names) == 1:
+        return f'tee {list(tee)} must be where a ball can lie: {reason}'
+    return (f'balls {", ".join(names)} do not fit beside each other at the tee {list(tee)}: '
+            f'{names[number]}: {reason}')
+
+
+def check_tee(course):
+    """Raise `NoPlace` where a ball can't lie on the course's tee; what its effects are worth does not count."""
+    World(course._replace(effects='auto'), engine='python')
 
 
 def spots(place, radius):

@@ -13,7 +13,7 @@ from rclpy.serialization import deserialize_message
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from ..environment import complete_environment
+from ..environment import complete_environment, unsafe
 from ..journal import JournalError, opened
 from ..spinning import Ending, EventsExecutor
 from .bag_writer import BagWriter, CannotRecord
@@ -129,8 +129,8 @@ def main(args=None):
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         return recorded(options, ending)
-    except (CannotRecord, NameValidationException, OSError) as error:
-        print(f'record_play: {" ".join(str(error).split())}', file=sys.stderr)
+    except (CannotRecord, NameValidationException, OSError, RuntimeError) as error:
+        print(f'record_play: {unsafe() or " ".join(str(error).split())}', file=sys.stderr)
         return 1
     finally:
         rclpy.try_shutdown()

@@ -7,7 +7,7 @@ from rclpy.exceptions import NameValidationException
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from ..environment import complete_environment
+from ..environment import complete_environment, unsafe
 from ..spinning import Ending
 from .launch_monitor import Launch, parted, velocity_and_spin
 from .pipes import in_pipes
@@ -131,7 +131,7 @@ def main(args=None):
     ending = Ending()
     try:
         options, launch = begun(sys.argv if args is None else args)
-        shoot(Player(options.ball, options.namespace, options.timeout), options, launch)
+        shoot(Player(options.ball, options.namespace, options.timeout, options.wait), options, launch)
     except (NoShot, NameValidationException) as error:
         return failed(error, 1)
     except KeyboardInterrupt:
@@ -150,7 +150,7 @@ def begun(args):
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         return typed
     except RuntimeError as error:
-        raise SystemExit(failed(f'arguments for ROS: {error}', 2)) from None
+        raise SystemExit(failed(unsafe() or f'arguments for ROS: {error}', 1 if unsafe() else 2)) from None
 
 
 def failed(reason, code):

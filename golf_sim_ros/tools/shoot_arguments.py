@@ -62,6 +62,8 @@ def _add_sim(group):
     group.add_argument('--namespace', metavar='NS', help='namespace of the sim')
     group.add_argument('--timeout', type=_not_negative, metavar='S', default=5.0, help=(
         'for how many seconds to look for a sim (default: 5)'))
+    group.add_argument('--wait', type=_not_negative, metavar='S', default=60.0, help=(
+        'for how many seconds to wait for a struck sim that cannot be reached any more (default: 60)'))
     group.add_argument('--print', action='store_true', help=(
         'print the ros2 topic pub line and do not shoot; needs no sim, except with --aim'))
 

@@ -292,3 +292,13 @@ def test_a_head_wind_shortens_and_a_side_wind_moves_a_drive():
     assert drive((-5, 0, 0)).carry < drive((1e-9, 0, 0)).carry - 10
     assert drive((0, 5, 0)).carry_side > 10
     assert radians(30) < drive((-5, 0, 0)).landing_angle < radians(60)
+
+
+def test_the_apex_is_that_before_the_first_contact_not_of_a_later_hop():
+    ramp = Patch((2.0, 0.0, 0.0), (-0.5 ** 0.5, 0.0, 0.5 ** 0.5), 0.0, 2.0, 2.0, HARD)
+    course = level(HARD, effects=GRAVITY)._replace(ground=(Plane(material=HARD), ramp))
+    play = simulate(course, Shot((10.0, 0.0, 1.0)))
+    assert play.result.apex == pytest.approx(0.5 / oracles.G, rel=1e-6)
+    assert play.positions[:, 2].max() - play.positions[0, 2] > 5 * play.result.apex
+    told, = simulate_many(course, [(10.0, 0.0, 1.0)], np.zeros((1, 3)))
+    assert told['apex'] == play.result.apex

@@ -107,7 +107,7 @@ def test_a_ball_driven_between_trunk_and_ground_comes_to_rest_and_gains_no_energ
 
 def test_a_ball_rests_on_a_stump_and_falls_off_it_when_it_rolls_over_the_rim():
     world = among(Cylinder((0.0, 0.0, 0.0), 0.3, 0.5, WOOD), tee=(3.0, 0.0))
-    world.place('ball', (0.1, 0.1))
+    world.place('ball', (0.1, 0.1, 0.5 + RADIUS))
     assert world['ball'].position == pytest.approx((0.1, 0.1, 0.5 + RADIUS)) and world['ball'].lie == 'wood'
     world.strike('ball', (1.0, 0.0, 0.0))
     world.advance(3.0)

@@ -265,18 +265,50 @@ def test_a_ball_that_goes_out_is_told_as_a_collision_just_before_its_result():
     events = world.advance(20.0)
     out, result = events
     assert (out.kind, out.with_, result.status) == ('out_of_bounds', 'turf', 'out_of_bounds')
-    assert out.position == result.position and out.position[0] == pytest.approx(9.0, abs=1e-6)
-    assert out.velocity_before == out.velocity_after != (0.0, 0.0, 0.0) and out.impulse == (0.0, 0.0, 0.0)
+    assert out.position == result.position and out.position[0] > 9.0 + RADIUS
+    assert out.velocity_before == out.velocity_after == out.impulse == (0.0, 0.0, 0.0)
+    assert (result.stroke, result.penalty) == (1, 1)
+    free = World(course._replace(bounds=None))
+    free.strike('ball', (7.0, 0.0, 0.0))
+    assert free.advance(20.0)[0].position == result.position  # where it comes to rest, as without bounds
 
 
-def test_a_ball_that_lands_out_is_told_of_the_bounce_and_of_the_bounds():
+@pytest.mark.parametrize('beyond, status', [(-0.001, 'at_rest'), (0.001, 'out_of_bounds')])
+def test_a_ball_is_out_only_if_all_of_it_lies_beyond_the_line(beyond, status):
+    course = Course((Plane(material=TURF),), effects=('gravity',))
+    world = World(course)
+    world.strike('ball', (3.0, 0.0, 0.0))
+    rest = world.advance(20.0)[0].position
+    line = rest[0] - RADIUS - beyond
+    world = World(course._replace(bounds=((-5.0, -5.0), (line, -5.0), (line, 5.0), (-5.0, 5.0))))
+    world.strike('ball', (3.0, 0.0, 0.0))
+    result = world.advance(20.0)[-1]
+    assert (result.status, result.position) == (status, rest)
+
+
+def test_a_ball_that_rolls_back_over_the_line_is_in_play():
+    away = 1.0 / np.hypot(1.0, 0.1)
+    smooth = TURF._replace(rolling_resistance=0.02)
+    course = Course((Plane(material=smooth), Plane((3.0, 0.0, 0.0), (-0.1 * away, 0.0, away), smooth)),
+                    effects=('gravity',), bounds=((-90.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-90.0, 5.0)))
+    world = World(course)
+    world.strike('ball', (3.9, 0.0, 0.0), (0.0, 3.9 / RADIUS, 0.0))
+    furthest, events = 0.0, []
+    while world.moving:
+        events += world.advance(0.01)
+        furthest = max(furthest, world['ball'].position[0])
+    assert furthest > 5.0 + RADIUS
+    assert events[-1].status == 'at_rest' and events[-1].position[0] < 5.0
+
+
+def test_a_ball_that_lands_out_is_told_of_the_bounces_and_at_its_rest_of_the_bounds():
     course = Course((Plane(material=TURF),), effects=('gravity',),
                     bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0)))
     world = World(course)
     world.strike('ball', (10.0, 0.0, 8.0))
     hits, (result,) = split(world.advance(20.0))
-    assert [hit.kind for hit in hits] == ['bounce', 'out_of_bounds'] and hits[0].time == hits[1].time
-    assert result.status == 'out_of_bounds'
+    assert {hit.kind for hit in hits[:-1]} == {'bounce'} and hits[-1].kind == 'out_of_bounds'
+    assert result.status == 'out_of_bounds' and hits[-1].time == result.time and len(hits) > 2
 
 
 def test_a_ball_that_falls_off_the_edge_of_all_ground_is_out():

@@ -18,7 +18,7 @@ def test_a_result_has_its_keys_in_order_and_is_rounded_for_people():
     assert list(told) == [
         'shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time', 'duration',
         'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time', 'position', 'velocity', 'spin',
-        'reason']
+        'reason', 'stroke', 'penalty']
     assert (told['shot'], told['carry'], told['time']) == (9, 251.2346, 123.456789)
     assert told['spin'] == [0.0, -281.2811, 0.0] and told['bounces'] == 4
 

@@ -51,7 +51,7 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
     outlines += [outline for zone in zones for outline in (zone.polygon, *zone.cut)]
     heights = [kind.heights(s) for kind, own in by_kind for s in own]
     heights += [(pond.level, pond.level) for pond in water]
-    return Ground(kinds, _borders(outlines, [bounds] if bounds else []),
+    return Ground(kinds, _borders(outlines),
                   regions([zone.polygon for zone in zones], [zone.cut for zone in zones]),
                   np.array([material_number[zone.material] for zone in zones], np.int64),
                   polygons([bounds] if bounds else []), np.array(hole or (), float), waters(water),
@@ -59,15 +59,15 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
                   float(max((high for _, high in heights), default=0.0)))
 
 
-def _borders(outlines, bounds):
+def _borders(outlines):
     rows = []
-    for is_bounds, outline in [(0, o) for o in outlines] + [(1, o) for o in bounds]:
+    for outline in outlines:
         if isinstance(outline, Circle):
-            rows.append(((outline.x, outline.y), (1.0, 0.0), 0.0, outline.radius, is_bounds))
+            rows.append(((outline.x, outline.y), (1.0, 0.0), 0.0, outline.radius))
             continue
         for start, end in sides(outline):
             start, end = np.asarray(start, float), np.asarray(end, float)
             size = np.linalg.norm(end - start)
             if size > 1e-9:  # an upright patch has no width in plan
-                rows.append((start, (end - start) / size, size, 0.0, is_bounds))
+                rows.append((start, (end - start) / size, size, 0.0))
     return np.array(rows, BORDER)

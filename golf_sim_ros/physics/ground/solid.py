@@ -68,6 +68,12 @@ def build(shapes, material_number):
     return Solids(np.array(rows, SOLID))
 
 
+def without(ground):
+    """`Ground` without its solids: no obstacles, no flagstick. The types are the same."""
+    return ground._replace(kinds=tuple(Solids(kind.solids[:0]) if isinstance(kind, Solids) else kind
+                                       for kind in ground.kinds))
+
+
 def box(shape):
     """Least and greatest x, y, z of a solid."""
     x, y, z = shape.center if isinstance(shape, Sphere) else shape.base

@@ -14,15 +14,15 @@ from ..state import NO_PART
 from ..vector import ZERO, along, dot, scale
 from . import laws
 from .flat import SAME_HEIGHT
-from .polygon import Polygons, Regions, in_region, inside
+from .polygon import Polygons, Regions, beside, in_region, inside
 from .water import Waters
 
 NO_GROUND = -1e300
 LOOK_AHEAD = 1e-7  # m: on a border, what a ball is on is decided this far ahead
 RIM_REACH = 0.02  # m: so near to the height of its rim the hole cuts whatever ground is there
 
-BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8'),
-                   ('bounds', 'i8')], align=True)
+BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8')],
+                  align=True)
 
 
 class Ground(NamedTuple):
@@ -224,9 +224,11 @@ def ground_height(ground, x, y):
 
 
 @kernel
-def in_bounds(ground, x, y):
-    """Whether the course's bounds, if any, contain the point."""
-    return len(ground.bounds.first) < 2 or inside(ground.bounds, 0, x, y)
+def out_of_bounds(ground, x, y):
+    """How far [m] the point is out of the course's bounds, in plan; -1 within them, or if there are none."""
+    if len(ground.bounds.first) < 2 or inside(ground.bounds, 0, x, y):
+        return -1.0
+    return beside(ground.bounds, 0, x, y)
 
 
 @shared

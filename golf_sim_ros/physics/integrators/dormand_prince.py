@@ -75,16 +75,16 @@ def _first_step(method, speed, hop, most):
 
 @runge_kutta.stands.register(DormandPrince)
 def _stands(method, h, error, most):
-    # Where a force jumps, nothing is gained below LEAST; the world refuses what is not finite.
-    return error <= most or h < LEAST or not error < 1e300
+    # Where a force jumps, nothing is gained below LEAST. A length that is no number is none of a step.
+    return error <= most or not h >= LEAST
 
 
 @runge_kutta.next_step.register(DormandPrince)
 def _next_step(method, h, error, most):
     if h < LEAST:  # the jump is behind
         return MOST_GROWTH * h
-    if not error < 1e300:
-        return h
+    if not error < 1e300:  # its stages ran away, as of a light ball that dense air stops within microseconds
+        return 0.1 * h
     grow = 0.9 / sqrt(sqrt(max(error / most, 1e-3)))  # as good a guess as the fifth root, and cheaper
     return min(h * min(max(grow, 0.1), MOST_GROWTH), method.longest)
 

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a sim can be reached, by its heartbeat: a dead one has matched readers for a while."""
+import json
+import time
+
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+
+BEAT_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)  # asks for the least
+SILENT = 2.0  # s without a beat, of which there are two a second: the sim cannot be reached
+FRESH = 1.2  # s: no older may a beat be when a strike is sent
+SOON = 3.0  # s: a sim that is reached and not paused has taken a strike long before
+
+
+class Reach:
+    """
+    Listens to the heartbeat of the sim in a node's namespace.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+    """
+
+    def __init__(self, node):
+        self._node = node
+        self.last, self.heard_at = None, None
+        self.reached_since = None  # when the silence before ended
+        self._beats = node.create_subscription(String, 'heartbeat', self._hear, BEAT_QOS)
+
+    def _hear(self, message):
+        now = time.monotonic()
+        beat = json.loads(message.data)
+        if self.silence(now) > SILENT or beat['session'] != self.last['session']:
+            self.reached_since = now
+        self.last, self.heard_at = beat, now
+
+    def silence(self, now=None):
+        """Return for how long there was no beat [s]."""
+        now = time.monotonic() if now is None else now
+        return float('inf') if self.heard_at is None else now - self.heard_at
+
+    def is_offered(self):
+        """Return whether there is, or was until just now, a sim that tells a heartbeat."""
+        return self.heard_at is not None or self._node.count_publishers(self._beats.topic_name) > 0
+
+    def is_fresh(self):
+        """Return whether the sim was there a moment ago."""
+        return self.silence() < FRESH
+
+    def is_lost(self):
+        """Return whether the sim cannot be reached."""
+        return self.silence() > SILENT
+
+    def has_had_time(self, since):
+        """Return whether the sim could be reached, and played, for long enough since a strike was sent."""
+        now = time.monotonic()
+        if self.last['paused']:
+            self.reached_since = now
+        return not self.is_lost() and now - max(since, self.reached_since) > SOON

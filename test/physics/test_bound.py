@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The bound on a path's pieces: the same end at every rate, in a call of any length, and in many shots.
+
+The bound itself is some seconds of work, so that these play in plain Python with one of a hundredth of it.
+"""
+import numpy as np
+import pytest
+
+from golf_sim_ros.physics import (Course, Material, Patch, Plane, Restitution, Shot, shot as shot_, simulate,
+                                  simulate_many, World)
+from other_process import run
+
+SMOOTH = Material('smooth', Restitution(0.5), 0.0, 0.0, 0.0, 0.0)
+FEW = 2000
+RATES = (50.0, 250.0, 1000.0)
+ALONG, SPIN = (0.0, 2.0, 0.0), (0.0, 0.0, 0.0)
+
+
+def groove():
+    """A course whose tee is in a groove along y: what two surfaces hold takes 5000 pieces a second."""
+    half = 0.5 ** 0.5
+    sides = [Patch((side, 0.0, 1.0), (-side * half, 0.0, half), 0.0, 2.0 / half, 400.0, SMOOTH)
+             for side in (1.0, -1.0)]
+    return Course((Plane((0.0, 0.0, -5.0), material=SMOOTH), *sides), effects=('gravity',))
+
+
+def ends():
+    """Figures of the failed shot at each rate, in one long call, in `simulate` and among many."""
+    shot_.MOST_PIECES = FEW
+    told = []
+    for rate in RATES:
+        world = World(groove())
+        world.strike('ball', ALONG, SPIN)
+        events = []
+        while world.moving:
+            events += world.advance(1.0 / rate)
+        told.append(events[-1])
+        told.append((world.failures, world['ball'].position, world['ball'].phase.name))
+    world = World(groove())
+    world.strike('ball', ALONG, SPIN)
+    told.append(world.advance(100.0)[-1])
+    told.append(simulate(groove(), Shot(ALONG, SPIN)).result)
+    many = simulate_many(groove(), [ALONG, ALONG], np.zeros((2, 3)))
+    return told, [(str(one['status']), float(one['duration'])) for one in many]
+
+
+@pytest.fixture(scope='module')
+def told():
+    return run(ends)
+
+
+def test_a_shot_that_takes_too_much_work_fails_at_the_same_instant_at_every_rate_and_in_one_call(told):
+    results = [one for one in told[0] if len(one) > 3]
+    assert len(results) == len(RATES) + 2
+    assert all(result[2] == 'failed' for result in results)
+    for result in results:
+        assert result == results[0]
+    reason = results[0][19]
+    assert reason.startswith('its path took more than ') and ' s after the strike' in reason
+    assert 0.1 < results[0][9] < 1.0  # duration [s]
+
+
+def test_the_ball_is_back_at_the_tee_and_the_failure_is_counted(told):
+    for failures, position, phase in (one for one in told[0] if len(one) == 3):
+        assert (failures, phase) == (1, 'REST') and position[:2] == [0.0, 0.0]
+
+
+def test_among_many_shots_it_fails_at_the_same_instant(told):
+    results, many = told
+    assert many == [['failed', results[0][9]]] * 2
+
+
+def test_within_the_bound_nothing_fails():
+    world = World(groove(), effects=('gravity',))
+    world.strike('ball', ALONG, SPIN)
+    assert world.advance(0.2) == [] and world._balls['pieces'][0] > 100

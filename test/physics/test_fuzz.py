@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A short run of tools/fuzz.py: random scenes of allowed numbers, five shots in each, in plain Python."""
+from pathlib import Path
+import sys
+from tempfile import TemporaryDirectory
+
+import pytest
+
+from golf_sim_ros.physics import shot as shot_
+from other_process import run
+
+TOOLS = Path(__file__).parents[2] / 'tools'
+SEEDS = (1004, 1009, 1010, 1015, 1016, 1018, 1020, 1024, 1027, 1037, 1038)
+FEW = 2000  # pieces of path: plain Python takes its time
+
+
+def outcomes():
+    """Outcome of each seed's scene."""
+    sys.path.append(str(TOOLS))
+    import fuzz_scenes
+    shot_.MOST_PIECES, fuzz_scenes.MOST_TIME = FEW, float('inf')
+    told = []
+    for seed in SEEDS:
+        with TemporaryDirectory() as folder:
+            told.append(fuzz_scenes.played(seed, folder))
+    return told
+
+
+@pytest.fixture(scope='module')
+def told():
+    return run(outcomes)
+
+
+def test_random_scenes_are_refused_by_name_or_played_to_their_end(told):
+    assert [trouble for *_, trouble in told] == [''] * len(SEEDS)
+    for refused, statuses, *_ in told:
+        assert len(statuses) >= 5 or 'scene.yaml: ' in refused or refused.startswith('World: balls ')
+
+
+def test_most_of_them_are_played(told):
+    assert sum(not refused for refused, *_ in told) > len(SEEDS) / 2

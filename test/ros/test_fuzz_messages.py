@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A short run of tools/fuzz.py: malformed and extreme messages, services and parameters over DDS."""
+from pathlib import Path
+import sys
+
+sys.path.append(str(Path(__file__).parents[2] / 'tools'))
+from fuzz_messages import attacked, Attacker  # noqa: E402
+from processes import parameters, READY  # noqa: E402
+
+
+def test_malformed_and_extreme_messages_leave_the_next_good_shot_the_same_to_the_bit(start):
+    sim = start('sim_node', *parameters('/fuzzed', real_time_factor=0.0))
+    sim.wait_for(READY)
+    attacker = Attacker('/fuzzed', 20)
+    try:
+        assert attacked(sim, attacker, 60, 20) == []
+    finally:
+        attacker.close()
+    assert sim.stop() == 0

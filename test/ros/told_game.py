@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A `Game` without DDS, on a clock that only tests turn, and all that it tells."""
+from collections import defaultdict
+import json
+from types import SimpleNamespace
+from unittest.mock import MagicMock
+
+from golf_sim_ros.game import Game
+from golf_sim_ros.journal import opened
+from golf_sim_ros.parameters import Parameters
+from golf_sim_ros.physics import World
+from golf_sim_ros.replay import difference, rerun, shots, tick_of
+
+LOOK = 0.002  # s that pass from one look at the clock to the next
+
+
+class TurnedClock:
+    """In place of `time.monotonic`: every look at it takes a little."""
+
+    def __init__(self):
+        self.now = 0.0
+
+    def __call__(self):
+        self.now += LOOK
+        return self.now
+
+
+class ToldGame:
+    """A game on `course`; `results` and `entries` are all that it told of shots and of inputs."""
+
+    def __init__(self, monkeypatch, course, balls=('ball',), factor=1.0, rate=250.0):
+        self.clock = TurnedClock()
+        monkeypatch.setattr('golf_sim_ros.pace.monotonic', self.clock)
+        self.given = Parameters(course='', balls=balls, real_time_factor=factor, rate=rate)
+        self.world, self.entries, self.results, self.collisions = World(course, balls), [], [], []
+        self.log, self.refusals, self.broadcast = MagicMock(), MagicMock(), MagicMock()
+        self.broadcast.tell_entry = lambda text: self.entries.append({**opened(text), 'received': 0})
+        self.broadcast.tell_collision = self.collisions.append
+        self.broadcast.results.publish = lambda message: self.results.append(json.loads(message.data))
+        self.broadcast.scene.trails = defaultdict(list)
+        self.game = Game(self.world, self.broadcast, self.refusals, self.log, self.given)
+        for name in balls:
+            self.broadcast.scene.trails[name] = MagicMock()
+        self.game.journal.config(self.world, self.given._asdict(), 0)
+
+    def send(self, ball, velocity, spin=(0.0, 0.0, 0.0)):
+        """Let a strike arrive."""
+        self.game.inputs.append(lambda: self.game.strike(ball, velocity, spin))
+
+    def step(self, count=1):
+        """Let the timer call so often, 50 times a second."""
+        for _ in range(count):
+            self.clock.now += 0.02
+            self.game.step()
+
+    def play_on(self, patience=200000):
+        """Step until no ball moves and nothing waits."""
+        for _ in range(patience):
+            self.step()
+            if not self.world.moving and not self.game.inputs:
+                return
+        raise AssertionError('the balls go on and on')
+
+    def differences(self):
+        """What differs of each recorded shot when it is run again: None where nothing does."""
+        recording = SimpleNamespace(journal=self.entries, config=self.entries[0], strikes=[], tracks={},
+                                    results=self.results, collisions=[])
+        world, tick = World(self.world.course, self.given.balls), tick_of(recording)
+        return [difference(recording, shot, rerun(world, shot, tick)) for shot in shots(recording)]

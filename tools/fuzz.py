@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Looks for what stops the simulator: random scenes, and malformed and extreme messages over DDS.
+
+Scenes are played in a process of their own, so that one that hangs is told by its seed. What is found is kept
+as a case in test/data/cases. `--scenes N`, `--messages N` and `--seed S` say how much, from which seed on.
+"""
+import argparse
+from collections import Counter
+from multiprocessing import get_context
+from pathlib import Path
+import resource
+import sys
+from tempfile import TemporaryDirectory
+import time
+
+ROOT = Path(__file__).parents[1]
+sys.path[:0] = [str(ROOT), str(ROOT / 'tools')]
+from fuzz_scenes import played  # noqa: E402
+
+SEED = 20  # the first of the seeds of a run; each scene has its own
+PATIENCE = 120.0  # s of wall time, after which a scene hangs
+MEMORY = 100.0  # MB that a worker may grow by in the second half of the scenes: before it compiles
+
+
+def memory():
+    """Greatest memory [MB] of this process so far."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def work(pipe):
+    """Play the scenes whose seeds come through `pipe`, and answer with their outcomes."""
+    while True:
+        seed = pipe.recv()
+        if seed is None:
+            return
+        with TemporaryDirectory() as folder:
+            try:
+                outcome = played(seed, folder)
+            except Exception as error:  # whatever it is, it is what we look for
+                outcome = None, (), 0.0, f'{type(error).__name__}: {error}'
+        pipe.send((tuple(outcome), memory()))
+
+
+class Worker:
+    """A process that plays scenes."""
+
+    def __init__(self):
+        context = get_context('spawn')
+        self.pipe, other = context.Pipe()
+        self.process = context.Process(target=work, args=(other,), daemon=True)
+        self.process.start()
+        other.close()
+        self.first = True
+
+    def play(self, seed):
+        """Outcome and memory of a scene; a hang or a death is an outcome, too, and ends the worker."""
+        patience = PATIENCE + (400.0 if self.first else 0.0)  # the first one compiles
+        self.pipe.send(seed)
+        try:
+            if self.pipe.poll(patience):
+                self.first = False
+                return self.pipe.recv()
+            trouble = f'hangs for {patience:g} s'
+        except EOFError:
+            trouble = 'the process died'
+        self.end()
+        return (None, (), patience, trouble), 0.0
+
+    def end(self):
+        """End the process."""
+        self.process.kill()
+        self.process.join()
+
+
+def scenes(count, seed):
+    """Play so many scenes; returns what went wrong, a list of lines."""
+    worker, told, refused, troubles = Worker(), Counter(), Counter(), []
+    slowest, start, most = 0.0, 0.0, 0.0
+    began = time.monotonic()
+    for number in range(seed, seed + count):
+        (why, statuses, took, trouble), used = worker.play(number)
+        told.update(statuses)
+        refused[bool(why)] += 1
+        slowest = max(slowest, took)
+        if trouble:
+            troubles.append(f'scene {number}: {trouble} ({took:.1f} s)')
+            print(troubles[-1], flush=True)
+        if not worker.process.is_alive():
+            worker = Worker()
+        if number - seed == count // 2:
+            start = used
+        most = max(most, used)
+        if (number - seed) % 100 == 99:
+            print(f'{number - seed + 1} scenes so far: {dict(told)}, slowest {slowest:.2f} s', flush=True)
+    worker.pipe.send(None)
+    worker.process.join(10.0)
+    print(f'{count} scenes from seed {seed} in {time.monotonic() - began:.0f} s: {refused[False]} played, '
+          f'{refused[True]} refused by name; shots: {dict(told)}; slowest call {slowest:.2f} s; '
+          f'memory {start:.0f} MB after a half, {most:.0f} MB at most', flush=True)
+    if start and most > start + MEMORY:
+        troubles.append(f'memory grew from {start:.0f} to {most:.0f} MB')
+    return troubles
+
+
+def main(args=None):
+    """Look for trouble; the exit code is 0 where there is none."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--scenes', type=int, default=100)
+    parser.add_argument('--messages', type=int, default=500, help='malformed ones, and as many extreme ones')
+    parser.add_argument('--seed', type=int, default=SEED)
+    given = parser.parse_args(args)
+    troubles = scenes(given.scenes, given.seed) if given.scenes else []
+    if given.messages:
+        from fuzz_messages import messages
+        troubles += messages(given.messages, given.seed)
+    print('\n'.join(troubles) or 'nothing was found')
+    return 1 if troubles else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
