@@ -578,7 +578,7 @@ def unfit(tee, names, number, reason):
 
 
 def check_tee(course):
-    """Raise `NoPlace` where a ball can't lie on the course's tee; what its effects are worth does not count."""
+    """Raise `NoPlace` where a ball can't lie on the course's tee, whatever its effects are worth."""
     World(course._replace(effects='auto'), engine='python')
 
 
