@@ -14,7 +14,7 @@ from .height_file import heightmap_of
 from .input_file import beside, content as bytes_of, is_there
 from .materials import materials, shipped
 from .mesh_file import outward, read_mesh
-from .misplaced import files_reach, looker, misplaced, steep
+from .misplaced import files_reach, looker, misplaced
 from .physics.air import Air, density, standard_atmosphere
 from .physics.course import Ball, Course
 from .physics.effects.wind import LogProfile, PowerProfile, UniformProfile
@@ -195,7 +195,7 @@ def course_of(content, base, folder, sources, opened):
     if course.hole is not None:
         even_around_hole(course, files)
     free_at_tee(course)
-    return course._replace(notes=(*notes, *misplaced(course, files), *steep(course, look)))
+    return course._replace(notes=(*notes, *misplaced(course, files)))
 
 
 def on_ground(course, key, look, files):

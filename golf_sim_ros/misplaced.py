@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What looks wrong of a course: meshes on their side or far from the tee, a tee that is too steep."""
-from math import dist, hypot
+"""What looks wrong of a course: meshes on their side or far from the tee."""
+from math import dist
 from pathlib import Path
 
 import numpy as np
@@ -42,27 +42,6 @@ def looker(course):
         z, part, number = look_down(ground, float(x), float(y))
         return None if part < 0 else (z, known[number])
     return look
-
-
-def steep(course, look):
-    """A note where a ball rolls off the tee: then nobody can strike it there."""
-    (x, y), step = course.tee, course.ball.radius
-    around = [look(x + dx, y + dy) for dx, dy in ((step, 0), (-step, 0), (0, step), (0, -step))]
-    if None in around:
-        return []
-    east, west, north, south = (height for height, _ in around)
-    slope = hypot(east - west, north - south) / (2.0 * step)
-    material = look(x, y)[1]
-    most = steepest(material, course.ball.inertia)
-    if slope <= most:
-        return []
-    return [f'tee {list(course.tee)}: a ball rolls off, on a slope of {100 * slope:.3g} % of {material.name},'
-            f' which holds one up to {100 * most:.3g} %: make it more level, or of another material']
-
-
-def steepest(material, inertia):
-    """Slope, rise over run, up to which a ball rests, held by rolling resistance as far as it grips."""
-    return min(material.static_friction, (1.0 + inertia) * material.rolling_resistance)
 
 
 def sizes(mesh):

@@ -127,7 +127,7 @@ def test_cuts_compile_nothing_that_is_not_compiled_without(load):
         plain = course._replace(zones=tuple(zone._replace(cut=()) for zone in course.zones),
                                 water=tuple(pond._replace(cut=()) for pond in course.water))
         bare = plain._replace(zones=(), water=())
-        assert World(course)._types() == World(plain)._types() == World(bare)._types()
+        assert World(course).program == World(plain).program == World(bare).program
 
 
 def test_a_zone_may_be_a_pair_as_ever(load):

@@ -150,7 +150,7 @@ def without(missing, source):
 
 
 @pytest.mark.parametrize('missing, source, ways', [
-    ('rosbags', 'from golf_sim_ros.bag import read_bag; read_bag("play")',
+    ('rosbags', 'from golf_sim_ros.bag import decoder; decoder("play")',
      ["pip install 'golf_sim_ros[bag]'"]),
     ('rosbags', 'from golf_sim_ros.tools.bag_writer import BagWriter; BagWriter("play", "mcap")',
      ["pip install 'golf_sim_ros[bag]'"]),

@@ -197,7 +197,7 @@ def test_effects_not_asked_for_are_off_and_say_so():
 @pytest.mark.parametrize('scene', SCENES)
 def test_what_is_off_is_of_no_type_that_the_kernels_see(scene):
     course, wind = SCENES[scene].course, SCENES[scene].wind
-    world = World(course, wind=wind)
+    world = World(course, wind=wind, engine='python')
     kinds = {type(record).__name__ for record in (*world._model.effects, *world._model.land.effects)}
     assert {CASTS[name] for name in CASTS if name in world.effects_on} <= kinds
     assert not kinds & {CASTS[name] for name in CASTS if name in world.effects_off}

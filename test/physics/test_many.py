@@ -4,7 +4,7 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
 from driving_range import TURF, level
-from golf_sim_ros.physics import play, simulate_many
+from golf_sim_ros.physics import batch, simulate_many
 import numpy as np
 import pytest
 
@@ -34,7 +34,7 @@ def test_processes_give_the_same_bits():
 
 @pytest.mark.parametrize('threads', [None, 2])
 def test_progress_sees_every_part(threads, monkeypatch):
-    monkeypatch.setattr(play, 'PART', 10)
+    monkeypatch.setattr(batch, 'PART', 10)
     told = []
 
     def progress(parts, total):
@@ -54,8 +54,8 @@ def test_progress_sees_every_part(threads, monkeypatch):
 @pytest.mark.parametrize('wind', [(0.0, 0.0, 0.0), (3.0, 0.0, 0.0)])
 def test_kernels_see_no_effect_that_is_off(monkeypatch, wind):
     seen = []
-    play_all = play.play_all
-    monkeypatch.setattr(play, 'play_all', lambda model, *rest: seen.append(model) or play_all(model, *rest))
-    simulate_many(level(TURF), VELOCITIES[:1], SPINS[:1], wind)
+    play_all = batch.play_all
+    monkeypatch.setattr(batch, 'play_all', lambda model, *rest: seen.append(model) or play_all(model, *rest))
+    simulate_many(level(TURF), VELOCITIES[:1], SPINS[:1], wind, engine='python')
     types = {type(effect).__name__ for model in seen for effect in model.effects}
     assert 'Drag' in types and 'Water' not in types and ('Wind' in types) == any(wind)

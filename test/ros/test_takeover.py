@@ -22,7 +22,7 @@ def values(messages):
 
 def strike_all(golfers, number):
     """Strike every ball, as never before, and wait for all results."""
-    strikes = [(round(60.0 + 0.01 * number, 2), round(0.1 * i - 1.0, 1), 14.0) for i in range(len(golfers))]
+    strikes = [(round(36.0 + 0.01 * number, 2), round(0.1 * i - 1.0, 1), 14.0) for i in range(len(golfers))]
     golfers[0].reset()
     for golfer, strike in zip(golfers, strikes):
         golfer.strike(strike, SPIN)

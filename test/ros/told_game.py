@@ -10,6 +10,7 @@ from golf_sim_ros.journal import opened
 from golf_sim_ros.parameters import Parameters
 from golf_sim_ros.physics import World
 from golf_sim_ros.replay import difference, rerun, shots, tick_of
+from golf_sim_ros.takeover import Takeover
 
 LOOK = 0.002  # s that pass from one look at the clock to the next
 
@@ -38,7 +39,8 @@ class ToldGame:
         self.broadcast.tell_collision = self.collisions.append
         self.broadcast.results.publish = lambda message: self.results.append(json.loads(message.data))
         self.broadcast.scene.trails = defaultdict(list)
-        self.game = Game(self.world, self.broadcast, self.refusals, self.log, self.given)
+        takeover = Takeover(self.world, 'python', self.log)
+        self.game = Game(self.world, self.broadcast, self.refusals, self.log, self.given, takeover)
         for name in balls:
             self.broadcast.scene.trails[name] = MagicMock()
         self.game.journal.config(self.world, self.given._asdict(), 0)

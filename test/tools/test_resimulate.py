@@ -224,7 +224,7 @@ def test_the_accuracy_of_the_play_itself_moves_nothing(told, tmp_path, capsys):
 def test_json_of_the_journal_has_the_keys_of_a_strike(told):
     strike = next(opened(one[3].data) for one in told if one[0] == '/journal' and '"strike"' in one[3].data)
     assert list(strike) == ['entry', 'kind', 'tick', 'shot', 'ball', 'velocity', 'spin', 'time', 'clock',
-                            'accuracy', 'wind', 'balls']
+                            'engine', 'accuracy', 'wind', 'balls']
     assert list(strike['balls']) == ['red', 'blue']
     assert json.loads(sealed(strike)) == {**strike, 'crc32': json.loads(sealed(strike))['crc32']}
 

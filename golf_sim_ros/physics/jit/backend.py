@@ -17,7 +17,7 @@ except ImportError as error:  # also a numba that does not work with this numpy
     raise Unavailable(' '.join(str(error).split())) from None
 
 from . import linking, reference
-from .read_only import read_from_folder
+from .kept import keep
 
 # That 0 and -0 are one changes results in no more than that, and spares an addition for each silent effect.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
@@ -53,8 +53,7 @@ def declare():
 def new_dispatcher(function, role):
     """What numba makes of `function`, nothing compiled yet."""
     if role == ENTRY:
-        made = numba.njit(cache=CACHE.writable, **OPTIONS)(function)
-        return made if CACHE.writable or not CACHE.path else read_from_folder(made)
+        return keep(numba.njit(**OPTIONS)(function), CACHE)
     made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(function)
     return linking.inner(made)
 
