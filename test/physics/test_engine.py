@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Two engines for the same physics: plain Python at once, compiled code where the play calls for it."""
+from collections import Counter
 import importlib.util
 import json
 import os
@@ -16,7 +17,7 @@ import pytest
 from golf_sim_ros.course import load_course, shipped_courses
 from golf_sim_ros.physics import Air, EngineUnavailable, PowerProfile, World, simulate, simulate_many, Shot
 from golf_sim_ros.physics import batch, engine
-from golf_sim_ros.physics.jit import build
+from golf_sim_ros.physics.jit import build, GENERICS, ROLES
 from golf_sim_ros.physics.jit.build import Build, FAILED, Part, READY
 
 needs_numba = pytest.mark.skipif(bool(engine.missing()), reason=engine.missing() or 'numba is here')
@@ -232,3 +233,10 @@ def modules_with_an_effect_of_ours():
     acceleration.__module__ = 'effect_from_elsewhere'
     laws.acceleration.register(Rain)(acceleration)
     return [name for name in build.foreign_modules() if name != __name__]
+
+
+def test_no_two_kernels_have_the_same_name():
+    """Code that two processes compiled meets in a third, where the same name stands for the same code."""
+    names = [(function.__module__, function.__qualname__) for function in ROLES]
+    names += [(generic.__module__, f'choose_{generic.__name__}') for generic in GENERICS]
+    assert [name for name, count in Counter(names).items() if count > 1] == []

@@ -58,6 +58,8 @@ def of_its_kind(law, otherwise):
             part -= n
         return result
 
+    # Machine code of two processes meets in a third by its names: no two kernels may have the same.
+    asked.__name__ = asked.__qualname__ = f'{law.__name__}_of_its_kind'
     asked.__doc__ = law.__doc__
     return asked
 

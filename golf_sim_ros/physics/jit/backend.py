@@ -72,9 +72,10 @@ def declare_generic(generic):
 
     names = parameters(generic.default)
     scope = {'pick': pick, '__name__': generic.__module__}
-    exec(f'def choose({names}): return pick({names})', scope)
+    choose = f'choose_{generic.__name__}'
+    exec(f'def {choose}({names}): return pick({names})', scope)
     options = {'no_cpython_wrapper': True, **linking.options(False)}
-    overload(generic, jit_options=options)(scope['choose'])
+    overload(generic, jit_options=options)(scope[choose])
 
 
 def stand_for(function, intrinsic):

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """How the machine code of entries is kept on disk, where numba's own way does not do.
 
-numba numbers the files of a function without a lock: two processes that keep code for different types at one
-time may end with the one's code under the other's name, and who loads that crashes. And a folder that can only be
-read, as in an image built as root and run by others, numba passes over. Private parts of numba, the same in
-versions 0.56 to 0.68.
+numba numbers the files of a function without a lock: two processes that keep code for different types at
+one time may end with the one's code under the other's name, and who loads that crashes. And it passes over a
+folder that can only be read, as in an image built as root and run by others. Private parts of numba, the
+same in versions 0.56 to 0.68.
 """
 from contextlib import contextmanager
 
