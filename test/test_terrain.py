@@ -237,7 +237,7 @@ def test_a_broken_geotiff_is_refused_in_one_line_and_a_missing_rasterio_told(com
         (tmp_path / 'a.tif').write_bytes(raw[:size])
         assert 'cannot be read by rasterio' in complaint('a.tif')
     monkeypatch.setitem(sys.modules, 'rasterio', None)
-    assert complaint('a.tif').startswith("needs rasterio: pip install 'golf_sim_ros[terrain]'")
+    assert complaint('a.tif').startswith('needs rasterio: sudo apt install python3-rasterio, or pip install ')
 
 
 def test_a_place_without_ground_is_told_where_the_map_is(course, tmp_path):

@@ -78,7 +78,7 @@ def cases(kind, first, last, options):
         command += ['--keep', str(options.keep)]
     with tempfile.TemporaryFile('w+') as told:
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=told, text=True, bufsize=1,
-                                   env={**os.environ, 'NUMBA_DISABLE_JIT': '1'})
+                                   env={**os.environ, 'GOLF_SIM_ROS_ENGINE': 'python'})
         try:
             while select.select([process.stdout], [], [], PATIENCE)[0]:
                 line = process.stdout.readline()
