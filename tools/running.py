@@ -16,7 +16,7 @@ from std_msgs.msg import String
 
 BIN = Path(sys.executable).parent
 NODES = ('sim_node', 'wind_node')
-FIRST_START = 180.0     # s: the first start on a machine compiles the physics
+FIRST_START = 60.0      # s: a start on a slow machine
 PATIENCE = 15.0         # s: after a signal a node has ended, or hangs
 EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
