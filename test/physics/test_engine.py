@@ -173,6 +173,7 @@ def test_a_world_goes_on_with_the_other_engine_in_mid_flight():
 
 # The child that compiles
 
+@needs_numba
 def test_a_compiler_that_aborts_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'missing', lambda: '')
     monkeypatch.setattr(build, 'is_kept', lambda key: False)
@@ -183,6 +184,7 @@ def test_a_compiler_that_aborts_is_a_reason_in_one_line(monkeypatch):
     assert '\n' not in aborted.reason
 
 
+@needs_numba
 def test_a_compiler_that_raises_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'missing', lambda: '')
     monkeypatch.setattr(build, 'is_kept', lambda key: False)
