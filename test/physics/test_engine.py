@@ -242,3 +242,30 @@ def test_no_two_kernels_have_the_same_name():
     names = [(function.__module__, function.__qualname__) for function in ROLES]
     names += [(generic.__module__, f'choose_{generic.__name__}') for generic in GENERICS]
     assert [name for name, count in Counter(names).items() if count > 1] == []
+
+
+@needs_numba
+def test_code_in_a_folder_that_can_only_be_read_is_used_in_place():
+    kept = World(level(TURF), engine='python').build(urgent=True)
+    assert kept.wait(PATIENCE) and kept.state == READY, kept.reason
+    assert run(compiled_where_nothing_can_be_written, plain=False) == 0
+
+
+def compiled_where_nothing_can_be_written():
+    """How many functions of ours a process compiles that may only read what is kept."""
+    from golf_sim_ros.physics.jit import cache
+    kept = cache.folder()._replace(writable=False)
+    cache.folder = lambda: kept
+    from numba.core import event
+    compiled = []
+
+    class Listener(event.Listener):
+        def on_start(self, told):
+            compiled.append(told.data['dispatcher'].py_func.__module__)
+
+        def on_end(self, told):
+            pass
+
+    event.register('numba:compile', Listener())
+    drive(World(level(TURF), engine='compiled'))
+    return sum(module.startswith('golf_sim_ros') for module in compiled)
