@@ -3,16 +3,13 @@
 import numpy as np
 
 from ..physics import model
-from ..physics.jit import borrowed, entry
 from ..physics.ground import surface
 
 COARSE = 4  # places of a grid to one that is always looked at
 
 
-@entry
 def look_down(ground, xs, ys, heights, numbers):
     """What lies highest at every place. Writes heights and numbers of materials; -1 without ground."""
-    ground = borrowed(ground)
     for i in range(len(xs)):
         z, part = surface.top(ground, xs[i], ys[i])
         heights[i] = z

@@ -70,11 +70,6 @@ class Build:
         """Whether it has ended, after `seconds` at most."""
         return self.ended.wait(seconds)
 
-    def stop(self):
-        """End the child, if there is one."""
-        if self.child and self.child.poll() is None:
-            self.child.kill()
-
     def _run(self):
         try:
             self._compile_and_load()
