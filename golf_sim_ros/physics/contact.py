@@ -99,7 +99,9 @@ def settle(land, ball, now):
     if length(v) <= STILL and holds and not in_tail(ball, now):
         v = ZERO
         put(ball['velocity'], v)
-        if material['pivot_friction'] == 0.0 or abs(turning) * land.ball.radius <= STILL:
+        if abs(turning) * land.ball.radius <= STILL:
+            turning = 0.0
+        if material['pivot_friction'] == 0.0 or turning == 0.0:
             ball['phase'] = REST
     put(ball['spin'], along(scale(1.0 / land.ball.radius, cross(normal, v)), turning, normal))
 

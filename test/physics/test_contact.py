@@ -350,6 +350,13 @@ def test_a_spin_about_the_normal_stops_after_its_closed_time():
     assert end.total < EXACT
 
 
+def test_a_ball_at_rest_turns_no_more():
+    world = World(level(TURF))
+    world.strike('ball', (20.0, 1.0, 9.0), (3.0, -300.0, 40.0))
+    end_of(world)
+    assert world['ball'].phase == Phase.REST and world['ball'].spin == (0.0, 0.0, 0.0)
+
+
 # Resting
 
 def resting_cases():
