@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recorded shots, run again: the same to the bit, or where they part."""
+from collections import defaultdict
 import json
 from math import ceil
 from time import perf_counter
@@ -252,15 +253,19 @@ def off_path(recording, shot, again):
 
 
 def other_impacts(recording, shot, again, tick):
-    """Differences between the collisions told and those that happened again; some may not be recorded."""
-    strike, happened = shot.strike, {}
+    """Differences between the collisions told and those that happened again; some may not be recorded.
+
+    At one instant there may be several, as with the surfaces of a corner.
+    """
+    strike, happened = shot.strike, defaultdict(list)
     for number, impact in again.impacts:
-        happened[impact.time, impact.kind] = number, json.loads(collision_text(impact))
+        happened[impact.time, impact.kind].append((number, json.loads(collision_text(impact))))
     end = strike['time'] + (again.end - strike['tick'] + 0.5) * tick
     for told in recording.collisions:
         if told['ball'] == strike['ball'] and strike['time'] <= told['time'] <= end:
             number = strike['tick'] + ceil((told['time'] - strike['time']) / tick)
-            number, now = happened.get((told['time'], told['kind']), (number, {}))
+            at_once = happened[told['time'], told['kind']] or [(number, {})]
+            number, now = next((one for one in at_once if told.items() <= one[1].items()), at_once[0])
             for field in told:
                 if told[field] != now.get(field):
                     yield Difference(number, f'{field} of a collision', told[field], now.get(field))
