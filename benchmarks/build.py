@@ -16,7 +16,7 @@ def main(folder, effects):
     """Play when told to, until there is nothing more to read."""
     sys.path.insert(0, folder)
     from golf_sim_ros.physics import Course, Material, Plane, Restitution, simulate_many
-    from golf_sim_ros.physics.advance import play_all
+    from golf_sim_ros.physics.engine.event_loop import play_all
     from golf_sim_ros.physics.jit import compiled
     import numpy as np
     turf = Material('turf', Restitution(0.4), 0.0, 0.4, 0.3, 0.1, 0.003, softness=1.0)

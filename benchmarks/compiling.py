@@ -6,7 +6,7 @@ import subprocess
 import sys
 import tempfile
 
-from golf_sim_ros.physics.engine import missing
+from golf_sim_ros.physics.engine.engines import missing
 from timing import Row
 
 FIRST, SECOND = ['--only', 'one ball'], []
@@ -19,7 +19,7 @@ def rows(quick):
     yield Row('a start in plain Python, no compiler', spent('-c', START), 's', most=1.0)
     if missing() or quick:
         return
-    first, both = (spent('-m', 'golf_sim_ros.tools.compile_physics', *what) for what in (FIRST, SECOND))
+    first, both = (spent('-m', 'golf_sim_ros.cli.compile_physics', *what) for what in (FIRST, SECOND))
     yield Row('compiling the physics for one ball, any course', first, 's', most=40.0)
     yield Row('compiling it for several balls, too, beside that', both - first, 's', most=25.0)
 

@@ -51,7 +51,7 @@ def figures(name, seconds, balls, most=float('inf'), **parameters):
         words = [word for key, value in given.items() for word in ('-p', f'{key}:={value}')]
         environment = {**os.environ, 'ROS_DOMAIN_ID': str(100 + os.getpid() % 100)}
         os.environ['ROS_DOMAIN_ID'] = environment['ROS_DOMAIN_ID']
-        sim = subprocess.Popen([sys.executable, '-m', 'golf_sim_ros.sim_node', '--ros-args', *words],
+        sim = subprocess.Popen([sys.executable, '-m', 'golf_sim_ros.nodes.sim_node', '--ros-args', *words],
                                env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             share, factor, made_up = watched(sim, names, seconds)
@@ -69,7 +69,7 @@ def watched(sim, balls, seconds):
     from geometry_msgs.msg import PoseStamped, Twist
     import rclpy
     from rclpy.qos import QoSProfile
-    from golf_sim_ros.spinning import EventsExecutor
+    from golf_sim_ros.nodes.lifecycle import EventsExecutor
     from std_msgs.msg import String
     rclpy.init()
     node = rclpy.create_node('golfer')

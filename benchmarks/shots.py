@@ -5,9 +5,9 @@ from math import hypot
 from time import perf_counter
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.materials import materials, shipped
+from golf_sim_ros.course.material_file import materials, shipped
 from golf_sim_ros.physics import ACCURACY, METHODS, Preset, simulate_many
-from golf_sim_ros.physics.model import Limits
+from golf_sim_ros.physics.scene.kernel_model import Limits
 from golf_sim_ros.study.measure import played
 from golf_sim_ros.study.methods import TRUTH
 from golf_sim_ros.study.scenes import EFFECTS, Scene, club_shot, level

@@ -5,10 +5,10 @@ from copy import deepcopy
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
-from golf_sim_ros.as_json import collision_text, rejection_text, result_text
 from golf_sim_ros.course import load_course
-from golf_sim_ros.journal import Journal
 from golf_sim_ros.physics import Phase, Rejected, Result, World
+from golf_sim_ros.recording.journal import Journal
+from golf_sim_ros.recording.json_format import collision_text, rejection_text, result_text
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 START = 1_700_000_000_123_456_789  # ns

@@ -2,10 +2,10 @@
 """Balls as JSON; no ROS."""
 import json
 
-from golf_sim_ros.as_json import state_text
 from golf_sim_ros.course import load_course
-from golf_sim_ros.journal import opened, sealed
 from golf_sim_ros.physics import World
+from golf_sim_ros.recording.journal import opened, sealed
+from golf_sim_ros.recording.json_format import state_text
 
 
 def test_a_state_is_written_as_it_is_at_every_tick():

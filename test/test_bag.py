@@ -9,8 +9,8 @@ import yaml
 
 pytest.importorskip('rosbags')
 
-from golf_sim_ros.bag import BagError, read_bag  # noqa: E402
-from golf_sim_ros.journal import Journal, JournalError, opened, sealed  # noqa: E402
+from golf_sim_ros.recording.bag import BagError, read_bag  # noqa: E402
+from golf_sim_ros.recording.journal import Journal, JournalError, opened, sealed  # noqa: E402
 import recorded_play  # noqa: E402
 from recorded_play import (bag, changed, CHIP, made, PITCH, RATE, replaced, SPIN, START, TYPES,  # noqa: E402
                            without)

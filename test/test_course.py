@@ -5,15 +5,15 @@ import os
 
 from golf_sim_ros import physics
 from golf_sim_ros.course import CourseError, load_course, shipped_courses
-from golf_sim_ros.materials import shipped
-from golf_sim_ros.physics.air import Air, standard_atmosphere
-from golf_sim_ros.physics.course import Ball
+from golf_sim_ros.course.material_file import shipped
 from golf_sim_ros.physics.effects.wind import LogProfile, PowerProfile, UniformProfile
-from golf_sim_ros.physics.ground.patch import Patch
-from golf_sim_ros.physics.ground.plane import Plane
-from golf_sim_ros.physics.ground.solid import Cylinder, Sphere
-from golf_sim_ros.physics.ground.water import Water
-from golf_sim_ros.physics.material import PENNER, Material, Restitution
+from golf_sim_ros.physics.geometry.patch import Patch
+from golf_sim_ros.physics.geometry.plane import Plane
+from golf_sim_ros.physics.geometry.solid import Cylinder, Sphere
+from golf_sim_ros.physics.geometry.water_surface import Water
+from golf_sim_ros.physics.properties.air import Air, standard_atmosphere
+from golf_sim_ros.physics.properties.material import Material, PENNER, Restitution
+from golf_sim_ros.physics.scene.course_record import Ball
 
 from hypothesis import HealthCheck, given, settings, strategies as st
 import numpy as np

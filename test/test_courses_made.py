@@ -8,7 +8,7 @@ import sys
 
 from golf_sim_ros import physics
 from golf_sim_ros.course import load_course, shipped_courses
-from golf_sim_ros.share import share
+from golf_sim_ros.course.package_files import share
 import numpy as np
 import pytest
 

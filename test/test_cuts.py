@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Zones and water with a cut, as fairways around bunkers and ponds around islands; and rounds."""
 from golf_sim_ros.course import CourseError, load_course, load_round
-from golf_sim_ros.painted import flat, in_region, last_zone
-from golf_sim_ros.physics import ground_height, Shot, simulate, World
+from golf_sim_ros.drawing.zone_triangles import flat, in_region, last_zone
+from golf_sim_ros.physics import Shot, World, ground_height, simulate
+from golf_sim_ros.physics.geometry import polygon
+from golf_sim_ros.physics.geometry.zone import Zone
 from golf_sim_ros.physics.jit import entry
-from golf_sim_ros.physics.ground import polygon
-from golf_sim_ros.physics.ground.zone import Zone
-from golf_sim_ros.physics.material import Material
+from golf_sim_ros.physics.properties.material import Material
 import numpy as np
 import pytest
 

@@ -4,7 +4,7 @@
 from pathlib import Path
 import sys
 
-from golf_sim_ros.environment import complete_environment
+from golf_sim_ros.nodes.environment import complete_environment
 
 
 def completed(**environment):

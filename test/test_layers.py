@@ -29,7 +29,7 @@ def test_the_contracts_of_import_linter_hold():
     ('golf_sim_ros.course', ROS),
     ('golf_sim_ros.wind', ROS),
     ('golf_sim_ros.bag', ROS),
-    ('golf_sim_ros.tools.resimulate', (*ROS, 'rosbags')),
+    ('golf_sim_ros.cli.resimulate', (*ROS, 'rosbags')),
 ], ids=lambda value: value if isinstance(value, str) else '')
 def test_what_is_not_a_node_imports_where_ros_is_not_installed(module, missing):
     code = f'import sys; sys.modules.update(dict.fromkeys({missing!r})); import {module}'

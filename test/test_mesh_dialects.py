@@ -5,12 +5,12 @@ from math import cos, pi, sin
 from pathlib import Path
 import struct
 
-from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
-from golf_sim_ros.mesh_file import read_mesh
-from golf_sim_ros.painted import holds
-from golf_sim_ros.physics import ground_height, Shot, simulate
-from golf_sim_ros.stl_file import STL_TRIANGLE
+from golf_sim_ros.course.mesh_file import read_mesh
+from golf_sim_ros.course.schema import CourseError
+from golf_sim_ros.course.stl_file import STL_TRIANGLE
+from golf_sim_ros.drawing.zone_triangles import holds
+from golf_sim_ros.physics import Shot, ground_height, simulate
 import numpy as np
 import pytest
 

@@ -2,11 +2,11 @@
 """Mesh files: what is read of each format, what is put right and told, and what is refused."""
 import sys
 
-from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
-from golf_sim_ros.mesh_file import outward, read_mesh
+from golf_sim_ros.course.mesh_file import outward, read_mesh
+from golf_sim_ros.course.schema import CourseError
+from golf_sim_ros.course.stl_file import STL_TRIANGLE
 from golf_sim_ros.physics import ground_height
-from golf_sim_ros.stl_file import STL_TRIANGLE
 import numpy as np
 import pytest
 

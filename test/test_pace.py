@@ -2,20 +2,20 @@
 """How wall time becomes ticks."""
 import pytest
 
-from golf_sim_ros import pace
-from golf_sim_ros.pace import Pace
+from golf_sim_ros.nodes import real_time
+from golf_sim_ros.nodes.real_time import Pace
 
 
 @pytest.fixture
 def clock(monkeypatch):
     """The wall clock [s], as a list of one that tests set."""
     now = [100.0]
-    monkeypatch.setattr(pace, 'monotonic', lambda: now[0])
+    monkeypatch.setattr(real_time, 'monotonic', lambda: now[0])
     return now
 
 
-def ticks(pace, limit=10.0):
-    return sum(pace.portions(limit, 0.0))
+def ticks(real_time, limit=10.0):
+    return sum(real_time.portions(limit, 0.0))
 
 
 @pytest.mark.parametrize('factor', [0.1, 1.0, 2.5, 30.0])

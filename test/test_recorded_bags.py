@@ -10,9 +10,9 @@ import pytest
 
 pytest.importorskip('rosbags')
 
-from golf_sim_ros.bag import read_bag  # noqa: E402
-from golf_sim_ros.journal import made_with  # noqa: E402
-from golf_sim_ros.replay import difference, rerun, shots, tick_of, world_of  # noqa: E402
+from golf_sim_ros.recording.bag import read_bag  # noqa: E402
+from golf_sim_ros.recording.journal import made_with  # noqa: E402
+from golf_sim_ros.recording.replay import difference, rerun, shots, tick_of, world_of  # noqa: E402
 
 BAGS = Path(__file__).parent / 'data' / 'bags'
 KINDS = {  # statuses of the shots, kinds of collision, kinds of input

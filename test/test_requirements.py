@@ -30,10 +30,10 @@ STARTED = ('rviz2',)                    # by the launch file, not imported
 BY_PIP = {
     'numba': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
     'llvmlite': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
-    'rosbags': ('bag', 'rosbags', ('golf_sim_ros/bag.py', 'golf_sim_ros/bag_file.py',
-                                   'golf_sim_ros/tools/bag_writer.py')),
-    'trimesh': ('mesh', 'trimesh', ('golf_sim_ros/mesh_file.py',)),
-    'rasterio': ('terrain', 'rasterio', ('golf_sim_ros/terrain_file.py',)),
+    'rosbags': ('bag', 'rosbags', ('golf_sim_ros/recording/bag.py', 'golf_sim_ros/recording/bag_file.py',
+                                   'golf_sim_ros/recording/bag_writer.py')),
+    'trimesh': ('mesh', 'trimesh', ('golf_sim_ros/course/mesh_file.py',)),
+    'rasterio': ('terrain', 'rasterio', ('golf_sim_ros/course/terrain_file.py',)),
 }
 # Every apt key here is one of rosdep's, for apt, in rosdistro's python.yaml, with no exception for a release.
 NO_APT_KEY = ('python3-numba', 'python3-rosbags-pip', 'python3-trimesh-pip')
@@ -132,11 +132,11 @@ def test_the_manifest_asks_for_nothing_that_apt_has_not(kind):
 
 
 @pytest.mark.parametrize('module', [
-    'sim_node', 'wind_node', 'tools.shoot', 'tools.record_play', 'tools.resimulate', 'tools.plot_play',
-    'tools.accuracy_study', 'bag', 'course', 'physics'])
+    'nodes.sim_node', 'nodes.wind_node', 'cli.shoot', 'cli.record_play', 'cli.resimulate', 'cli.plot_play',
+    'cli.accuracy_study', 'bag', 'course', 'physics'])
 def test_with_numpy_and_yaml_alone_it_imports(module):
     missing = {*PYTHON, *BY_PIP} - {'numpy', 'yaml'}
-    if module.startswith(('sim', 'wind', 'tools.shoot', 'tools.record')):
+    if module.startswith(('nodes', 'cli.shoot', 'cli.record')):
         pytest.importorskip('rclpy')
     run = without(missing, f'import golf_sim_ros.{module}')
     assert run.returncode == 0, run.stderr
@@ -152,13 +152,13 @@ def without(missing, source):
 @pytest.mark.parametrize('missing, source, ways', [
     ('rosbags', 'from golf_sim_ros.bag import decoder; decoder("play")',
      ["pip install 'golf_sim_ros[bag]'"]),
-    ('rosbags', 'from golf_sim_ros.tools.bag_writer import BagWriter; BagWriter("play", "mcap")',
+    ('rosbags', 'from golf_sim_ros.recording.bag_writer import BagWriter; BagWriter("play", "mcap")',
      ["pip install 'golf_sim_ros[bag]'"]),
-    ('trimesh', 'from golf_sim_ros.mesh_file import by_trimesh; by_trimesh(b"", "a.ply")',
+    ('trimesh', 'from golf_sim_ros.course.mesh_file import by_trimesh; by_trimesh(b"", "a.ply")',
      ["pip install 'golf_sim_ros[mesh]'"]),
-    ('matplotlib', 'from golf_sim_ros.tools.plot_play import main; sys.exit(main(["play"]))',
+    ('matplotlib', 'from golf_sim_ros.cli.plot_play import main; sys.exit(main(["play"]))',
      ['apt install python3-matplotlib', "pip install 'golf_sim_ros[plot]'"]),
-    *((library, 'from golf_sim_ros.tools.accuracy_study import main; sys.exit(main(["--quick"]))',
+    *((library, 'from golf_sim_ros.cli.accuracy_study import main; sys.exit(main(["--quick"]))',
        ['apt install python3-scipy python3-matplotlib python3-tqdm', "pip install 'golf_sim_ros[study]'"])
       for library in ('matplotlib', 'scipy', 'tqdm')),
 ])

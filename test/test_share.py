@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
-from golf_sim_ros import share as module
-from golf_sim_ros.share import share
+from golf_sim_ros.course import package_files as module
+from golf_sim_ros.course.package_files import share
 
 
 def run_copy(site_packages, environment=None):
@@ -18,7 +18,7 @@ def run_copy(site_packages, environment=None):
     package.mkdir(parents=True)
     shutil.copy(module.__file__, package)
     (package / '__init__.py').touch()
-    code = 'from golf_sim_ros.share import share; print(share("config"))'
+    code = 'from golf_sim_ros.course.package_files import share; print(share("config"))'
     return subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, cwd=site_packages,
                           env={'PATH': '', 'PYTHONPATH': str(site_packages), **(environment or {})})
 

@@ -2,7 +2,7 @@
 """Polygons that cross or touch themselves are found, and no others: as comparing all sides with all does."""
 from math import cos, pi, sin
 
-from golf_sim_ros.simple_polygon import crossing, meet
+from golf_sim_ros.course.simple_polygon import crossing, meet
 from hypothesis import example, given, settings, strategies as st
 import pytest
 
@@ -65,7 +65,7 @@ def test_a_comb_is_simple():
 
 def calls(corners, monkeypatch):
     """How often the turn of three points is asked for."""
-    from golf_sim_ros import simple_polygon
+    from golf_sim_ros.course import simple_polygon
     count, turn = [0], simple_polygon.turn
 
     def counted(a, b, c):

@@ -3,10 +3,10 @@
 from pathlib import Path
 import sys
 
-from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
-from golf_sim_ros.missing_heights import filled
-from golf_sim_ros.physics import ground_height, Shot, simulate
+from golf_sim_ros.course.missing_heights import filled
+from golf_sim_ros.course.schema import CourseError
+from golf_sim_ros.physics import Shot, ground_height, simulate
 import numpy as np
 import pytest
 

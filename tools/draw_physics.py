@@ -10,8 +10,8 @@ import matplotlib
 import numpy as np
 
 from fit_aerodynamics import DEGREE, MPH, RPM, TABLES, YARD, column, drag_and_lift, rows
+from golf_sim_ros.course.material_file import shipped
 from golf_sim_ros.drawing.style import bare, colors
-from golf_sim_ros.materials import shipped
 from golf_sim_ros.physics import (Course, Material, Phase, Plane, Restitution, Shot, World, simulate,
                                   simulate_many)
 from golf_sim_ros.physics.effects.drag import DragLaw

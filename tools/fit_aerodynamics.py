@@ -15,9 +15,9 @@ from pathlib import Path
 import numpy as np
 from scipy.optimize import least_squares
 
-from golf_sim_ros.physics.air import Air, density, viscosity
 from golf_sim_ros.physics.effects.drag import DragLaw, drag_coefficient
 from golf_sim_ros.physics.effects.magnus import LiftLaw, lift_per_ratio
+from golf_sim_ros.physics.properties.air import Air, density, viscosity
 
 DATA = Path(__file__).parents[1] / 'test' / 'data'
 MPH, YARD, RPM, DEGREE = 0.44704, 0.9144, pi / 30, pi / 180

@@ -10,10 +10,10 @@ from typing import NamedTuple
 import numpy as np
 import yaml
 
-from golf_sim_ros.as_json import collision_text, result_text, state_text
 from golf_sim_ros.course import CourseError, load_course, shipped_courses
-from golf_sim_ros.journal import sealed
 from golf_sim_ros.physics import ACCURACY, Phase, Rejected, Result, World
+from golf_sim_ros.recording.journal import sealed
+from golf_sim_ros.recording.json_format import collision_text, result_text, state_text
 
 SHOTS = 5
 MOST_TIME = 5.0  # s of processor time that any call may take

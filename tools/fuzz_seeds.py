@@ -9,10 +9,10 @@ import yaml
 
 from fuzz_mutations import bytes_mutated, junk, structure_mutated, words_mutated, YAML_TOKENS
 from golf_sim_ros.course import CourseError, load_course, load_round
-from golf_sim_ros.height_file import heightmap_of
-from golf_sim_ros.mesh_file import read_mesh
+from golf_sim_ros.course.heightmap_file import heightmap_of
+from golf_sim_ros.course.mesh_file import read_mesh
+from golf_sim_ros.course.package_files import share
 from golf_sim_ros.physics import Material
-from golf_sim_ros.share import share
 
 TEST = Path(__file__).resolve().parents[1] / 'test'
 WHOLE = '''
@@ -215,7 +215,7 @@ def arrays():
 def bags(folder):
     """Mutated bags of a short play, in both storages: in the file, or in the metadata."""
     sys.path.insert(0, str(TEST))
-    from golf_sim_ros.bag import BagError, read_bag
+    from golf_sim_ros.recording.bag import BagError, read_bag
     from recorded_play import bag, Sim
     told = Sim().play([(3, 'strike', ('red', (2.0, 0.1, 0.0), (0.0, 0.0, 0.0)))], 400)
     seeds = [[(file.name, file.read_bytes()) for file in bag(folder / storage, told, storage).iterdir()]

@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test'), str(ROOT / 'test' / 'physics')]
 from golf_sim_ros.course import load_course  # noqa: E402
 from golf_sim_ros.physics import ACCURACY, Phase  # noqa: E402
-from golf_sim_ros.physics.engine import prefer_compiled  # noqa: E402
+from golf_sim_ros.physics.engine.engines import prefer_compiled  # noqa: E402
 from hard_scenes import SCENES  # noqa: E402
 from nothing_passes import TARGETS  # noqa: E402
 from test_hard_cases import CASES, play, start  # noqa: E402

@@ -13,10 +13,10 @@ import rclpy
 from rclpy.signals import SignalHandlerOptions
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.environment import complete_environment
+from golf_sim_ros.nodes.environment import complete_environment
 from golf_sim_ros.physics import World
-from golf_sim_ros.tools.clubs import CLUBS
-from golf_sim_ros.tools.launch_monitor import Launch, velocity_and_spin
+from golf_sim_ros.shot_input.clubs import CLUBS
+from golf_sim_ros.shot_input.launch_monitor import Launch, velocity_and_spin
 from running import BIN, Failed, nodes, Spectator
 
 LONGEST = 360.0         # s: a shot lasts 300 s at most

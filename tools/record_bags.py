@@ -21,8 +21,8 @@ from std_msgs.msg import String
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / 'tools')]
-from golf_sim_ros.bag_file import raw_messages  # noqa: E402
-from golf_sim_ros.tools.bag_writer import BagWriter  # noqa: E402
+from golf_sim_ros.recording.bag_file import raw_messages  # noqa: E402
+from golf_sim_ros.recording.bag_writer import BagWriter  # noqa: E402
 from running import BIN, EVENTS, stopped  # noqa: E402
 
 BAGS = ROOT / 'test' / 'data' / 'bags'

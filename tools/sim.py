@@ -8,7 +8,7 @@ import time
 import rclpy
 from rclpy.signals import SignalHandlerOptions
 
-from golf_sim_ros.environment import complete_environment
+from golf_sim_ros.nodes.environment import complete_environment
 from running import BIN, Failed, nodes, Spectator
 
 

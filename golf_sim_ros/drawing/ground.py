@@ -2,9 +2,9 @@
 """The course under a play: from above, and cut open along the paths."""
 import numpy as np
 
-from ..painted import in_region
-from ..physics.model import materials
+from ..physics.scene.kernel_model import materials
 from .relief import grid_relief, relief
+from .zone_triangles import in_region
 
 LIGHT = 2.5     # how much brighter a slope of 1 is that rises towards the right and up
 SHADE = 0.22    # at most so much brighter or darker

@@ -5,7 +5,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from ..physics.model import materials
+from ..physics.scene.kernel_model import materials
 from . import table, wind
 from .charts import charts
 from .shots import detailed

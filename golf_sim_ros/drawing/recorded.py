@@ -2,8 +2,8 @@
 """Shots to be drawn, from what was recorded of a play."""
 import numpy as np
 
-from ..bag import BagError
-from ..physics.report import Collision, Result
+from ..physics.result import Collision, Result
+from ..recording.bag import BagError
 from .shots import DrawnShot
 
 ROUNDED = 2e-4   # s: results tell durations, from which strikes are reckoned, to 1e-4

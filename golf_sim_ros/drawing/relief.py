@@ -2,8 +2,8 @@
 """The ground from above, at many places at once."""
 import numpy as np
 
-from ..physics import model
-from ..physics.ground import surface
+from ..physics.geometry import surfaces
+from ..physics.scene import kernel_model
 
 COARSE = 4  # places of a grid to one that is always looked at
 
@@ -11,9 +11,9 @@ COARSE = 4  # places of a grid to one that is always looked at
 def look_down(ground, xs, ys, heights, numbers):
     """What lies highest at every place. Writes heights and numbers of materials; -1 without ground."""
     for i in range(len(xs)):
-        z, part = surface.top(ground, xs[i], ys[i])
+        z, part = surfaces.top(ground, xs[i], ys[i])
         heights[i] = z
-        numbers[i] = surface.material_of(ground, part, (xs[i], ys[i], z)) if part >= 0 else -1
+        numbers[i] = surfaces.material_of(ground, part, (xs[i], ys[i], z)) if part >= 0 else -1
 
 
 def relief(course, x, y):
@@ -30,11 +30,11 @@ def relief(course, x, y):
     heights : ndarray
         [m]; not a number where there is no ground.
     numbers : ndarray of int
-        Rows of `golf_sim_ros.physics.model.materials(course)`; -1 where there is no ground.
+        Rows of `golf_sim_ros.physics.scene.kernel_model.materials(course)`; -1 where there is no ground.
     """
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
     heights, numbers = np.empty(x.size), np.empty(x.size, np.int64)
-    look_down(model.bare_ground(course), x.flatten(), y.flatten(), heights, numbers)
+    look_down(kernel_model.bare_ground(course), x.flatten(), y.flatten(), heights, numbers)
     heights[numbers < 0] = np.nan
     return heights.reshape(x.shape), numbers.reshape(x.shape)
 

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..physics.play import checked_gusts
-from ..physics.report import Result
-from ..physics.vector import ZERO
+from ..physics.mechanics.vector import ZERO
+from ..physics.result import Result
+from ..physics.simulation import checked_gusts
 
 
 class DrawnShot(NamedTuple):

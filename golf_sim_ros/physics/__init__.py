@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """The physics of golf: no ROS, no files, no clock, no plots."""
-from .accuracy import ACCURACY, Preset
-from .advance import cycles_now
-from .air import Air, standard_atmosphere
-from .course import Ball, Course
 from .effects import EFFECTS, register_effect
-from .engine import ENGINES
 from .effects.wind import LogProfile, PowerProfile, UniformProfile
-from .ground.heightmap import Heightmap
-from .ground.mesh import Mesh
-from .ground.patch import Patch
-from .ground.plane import Plane
-from .ground.solid import Cylinder, Sphere
-from .ground.water import Water
-from .ground.zone import Zone
+from .engine.engines import ENGINES
+from .engine.event_loop import cycles_now
+from .geometry.heightmap import Heightmap
+from .geometry.mesh import Mesh
+from .geometry.patch import Patch
+from .geometry.plane import Plane
+from .geometry.solid import Cylinder, Sphere
+from .geometry.water_surface import Water
+from .geometry.zone import Zone
 from .integrators import METHODS
 from .jit import Unavailable as EngineUnavailable
-from .material import PENNER, Material, Restitution, rolling_resistance_of_stimp
-from .play import Play, check_hole, ground_height, simulate, simulate_many
-from .report import Collision, Result
-from .state import Phase, Shot
+from .properties.air import Air, standard_atmosphere
+from .properties.material import Material, PENNER, Restitution, rolling_resistance_of_stimp
+from .result import Collision, Result
+from .scene.course_record import Ball, Course
+from .scene.presets import ACCURACY, Preset
+from .simulation import Play, check_hole, ground_height, simulate, simulate_many
+from .state.ball import Phase, Shot
 from .world import BallState, NoPlace, Rejected, World, check_tee
 
 __all__ = [

@@ -7,21 +7,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import model as model_
-from .accuracy import preset
-from .advance import LOG_FULL, STAGES
-from .crowd import AGE, MEMBERS, scratch
-from .detect import PILE_NEAR
-from .engine import PYTHON, Program, checked_engine, compiled
+from .collision.ground_contact import PILE_NEAR
+from .collision.workspace import AGE, MEMBERS, scratch
 from .effects import Scene, choose
-from .ground import surface
-from .ground.solid import FLAGSTICK_RADIUS, without
+from .engine.engines import PYTHON, Program, checked_engine, compiled
+from .engine.event_loop import LOG_FULL, STAGES
+from .geometry import surfaces
+from .geometry.solid import FLAGSTICK_RADIUS, without
 from .jit.build import Part
-from .report import KINDS, Collision, failure, objection, result, three
-from .shot import NOT_FINITE, fail, tee_off
-from .state import (BALL, BUMP, FAILED, FLIGHT, GONE, HOLED, LAUNCH, LOST, NO_PART, OUT, REST, ROLL,
-                    SHOT_ENDS, SLIDE, STEP, WATER, WET, Phase, moves, new_log, plain, plain_rows, restored)
-from .vector import ZERO
+from .mechanics.vector import ZERO
+from .result import Collision, KINDS, failure, objection, result, three
+from .scene import kernel_model as model_
+from .scene.presets import preset
+from .state.ball import (BALL, FAILED, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, Phase, REST, ROLL, SLIDE, STEP,
+                         WATER, moves)
+from .state.events import BUMP, GONE, LOST, SHOT_ENDS, WET, new_log
+from .state.serialize import plain, plain_rows, restored
+from .trajectory.shot_record import NOT_FINITE, fail, tee_off
 
 APART = 0.5  # m between balls on the tee
 CLEAR = 2.2  # radii from centre to centre, of a ball that is dropped beside another
@@ -304,9 +306,9 @@ class World:
             x, y = self._beside_flagstick(x, y)
         place = position if exact else lowered(put_down, bare, ball, (x, y))
         _, inside, wet = put_down(self._model, ball, place, 0.0)
-        if inside > surface.SAME_HEIGHT:
+        if inside > surfaces.SAME_HEIGHT:
             _, in_ground, _ = put_down(bare, ball, place, 0.0)
-            what = 'the ground' if in_ground > surface.SAME_HEIGHT else 'an obstacle or the flagstick'
+            what = 'the ground' if in_ground > surfaces.SAME_HEIGHT else 'an obstacle or the flagstick'
             raise NoPlace(f'position {position} lies {inside:.3g} m deep in {what}')
         if wet:
             raise NoPlace(f'position {position} lies in water')
@@ -315,7 +317,7 @@ class World:
         """x, y in the hole, moved to where a ball drops in beside the flagstick; any other as they are."""
         ground, radius, course = self._model.land.ground, self._model.land.ball.radius, self.course
         away = hypot(x - course.hole[0], y - course.hole[1]) if course.hole else inf
-        room = FLAGSTICK_RADIUS + radius + surface.SAME_HEIGHT
+        room = FLAGSTICK_RADIUS + radius + surfaces.SAME_HEIGHT
         if not course.flagstick or away >= room or room + radius > ground.hole[2]:
             return x, y
         towards = atan2(y - course.hole[1], x - course.hole[0])
@@ -490,7 +492,7 @@ class World:
             if self._is_free(number, (x, y, z)):
                 start = x, y, z + lower
                 touches, inside, wet = self._engine.put_down(self._model, ball, start, 2.0 * lower)
-                if lower == 0.0 or touches and inside <= surface.SAME_HEIGHT and not wet:
+                if lower == 0.0 or touches and inside <= surfaces.SAME_HEIGHT and not wet:
                     break
         else:
             self._engine.put_down(self._model, ball, three(ball['struck_at']), 0.0)
@@ -506,7 +508,7 @@ class World:
         others = np.delete(self._balls, number)
         others = others[others['phase'] != HOLED]
         apart = np.linalg.norm(others['position'] - place, axis=1)
-        return not (apart < 2.0 * self._model.land.ball.radius - surface.SAME_HEIGHT).any()
+        return not (apart < 2.0 * self._model.land.ball.radius - surfaces.SAME_HEIGHT).any()
 
     def state(self, written=plain):
         """All that decides how the play goes on, as numbers, text, lists and dicts; see `restore`.
@@ -562,9 +564,9 @@ def lowered(put_down, model, ball, place):
     x, y = place
     ground, radius = model.land.ground, model.land.ball.radius
     for room in (3 * radius, 30 * radius, 300 * radius):  # over a steep plane a ball touches higher up
-        top = max(surface.look_down(ground, x, y)[0], ground.highest) + room
+        top = max(surfaces.look_down(ground, x, y)[0], ground.highest) + room
         touches, inside, _ = put_down(model, ball, (x, y, top), min(top - ground.lowest + room, FALL))
-        if touches and inside <= surface.SAME_HEIGHT:
+        if touches and inside <= surfaces.SAME_HEIGHT:
             return three(ball['position'])
     raise NoPlace(f'no ground at x {x:g}, y {y:g}')
 

@@ -6,7 +6,7 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from ..physics import ACCURACY, METHODS, Plane, Preset
-from ..physics.report_2019 import play_report_2019
+from ..physics.baselines.report_2019 import play_report_2019
 from .measure import Stage, Truth
 from .scenes import Scene
 from .scipy_flight import fly

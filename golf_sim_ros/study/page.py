@@ -95,7 +95,8 @@ below a millisecond for a centimetre.
 ## The model of the report of 2019
 
 Linear drag, wind as a force that grows with height, a percentage of spin lost at every bounce, sand that
-swallows everything, semi-implicit Euler at 50 Hz with push-out (`golf_sim_ros/physics/report_2019.py`).
+swallows everything, semi-implicit Euler at 50 Hz with push-out
+(`golf_sim_ros/physics/baselines/report_2019.py`).
 What that costs against the model here:
 
 {report}

@@ -6,11 +6,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..course import load_course
-from ..materials import materials, shipped
+from ..course.material_file import materials, shipped
 from ..physics import Ball, Course, Material, Mesh, Plane, Restitution, Shot
-from ..tools.clubs import CLUBS
-from ..tools.launch_monitor import velocity_and_spin
-from ..wind.gusts import Gusts, GustSettings
+from ..shot_input.clubs import CLUBS
+from ..shot_input.launch_monitor import velocity_and_spin
+from ..wind.gusts import GustSettings, Gusts
 
 # Every scene asks for the same effects, so that all of them share their machine code.
 EFFECTS = ('gravity', 'drag', 'magnus', 'spin_decay', 'turf')

@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 from ..physics.effects import Scene, choose
 from ..physics.effects.drag import drag_coefficient
 from ..physics.effects.magnus import lift_per_ratio
-from ..physics.play import checked_gusts
+from ..physics.simulation import checked_gusts
 
 LONGEST = 60.0  # s
 

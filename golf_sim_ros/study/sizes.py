@@ -4,7 +4,7 @@ from functools import partial
 from typing import NamedTuple
 
 from ..physics import Ball, Course, Material, Plane, Restitution
-from ..physics.vector import ZERO
+from ..physics.mechanics.vector import ZERO
 from .measure import Stage, timed
 from .scenes import EFFECTS, Game, club_shot, hills, level, lofted
 

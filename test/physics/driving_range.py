@@ -8,7 +8,7 @@ from math import cos, radians, sin
 
 import numpy as np
 
-from golf_sim_ros.physics import PENNER, Course, Material, Patch, Plane, Restitution
+from golf_sim_ros.physics import Course, Material, PENNER, Patch, Plane, Restitution
 
 EVERYTHING = ('gravity', 'drag', 'magnus', 'spin_decay', 'turf')
 GRAVITY = ('gravity',)

@@ -9,9 +9,9 @@ from typing import Callable, NamedTuple
 import numpy as np
 
 from driving_range import GRAVITY
-from golf_sim_ros.physics import (PENNER, Ball, Course, Cylinder, Heightmap, Material, Mesh, Patch, Phase,
+from golf_sim_ros.physics import (Ball, Course, Cylinder, Heightmap, Material, Mesh, PENNER, Patch, Phase,
                                   Plane, Restitution, World, rolling_resistance_of_stimp)
-from golf_sim_ros.physics.ground.cup import RADIUS as HOLE
+from golf_sim_ros.physics.geometry.cup import RADIUS as HOLE
 from oracles import G, RADIUS
 from scene import bowl, energy
 

@@ -6,8 +6,9 @@ The bound itself is some seconds of work, so that these play in plain Python wit
 import numpy as np
 import pytest
 
-from golf_sim_ros.physics import (Course, Material, Patch, Plane, Restitution, Shot, shot as shot_, simulate,
-                                  simulate_many, World)
+from golf_sim_ros.physics import (Course, Material, Patch, Plane, Restitution, Shot, World, simulate,
+                                  simulate_many)
+from golf_sim_ros.physics.trajectory import shot_record as shot_
 from other_process import run
 
 SMOOTH = Material('smooth', Restitution(0.5), 0.0, 0.0, 0.0, 0.0)

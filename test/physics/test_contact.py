@@ -6,9 +6,10 @@ from pathlib import Path
 
 from driving_range import EVERYTHING, GRAVITY, HARD, TURF, down, level, random_shots, slope
 from golf_sim_ros.physics import (ACCURACY, Collision, Material, Phase, Preset, Restitution, Result, Shot,
-                                  World, braked, rolling_resistance_of_stimp, simulate, simulate_many)
+                                  World, rolling_resistance_of_stimp, simulate, simulate_many)
 from golf_sim_ros.physics.jit import entry
-from golf_sim_ros.physics.model import Limits
+from golf_sim_ros.physics.mechanics import coulomb_deceleration
+from golf_sim_ros.physics.scene.kernel_model import Limits
 import numpy as np
 import oracles
 from oracles import G, RADIUS
@@ -444,8 +445,8 @@ def test_the_smallest_lift_off_ends_at_rest_on_the_ground(accuracy):
 @entry
 def time_at(u, pull, friction, time):
     """Time at the parameter that is found for `time`."""
-    motion = braked.braked(u, pull, friction, (0.0, 0.0, 1.0))
-    return braked.after(motion, braked.parameter_at(motion, time))[0]
+    motion = coulomb_deceleration.braked(u, pull, friction, (0.0, 0.0, 1.0))
+    return coulomb_deceleration.after(motion, coulomb_deceleration.parameter_at(motion, time))[0]
 
 
 @pytest.mark.parametrize('friction', [0.0, 1e-18, 1e-3, 4.9])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from golf_sim_ros.physics import Ball, Course, Material, Patch, Phase, Plane, Restitution, World
-from golf_sim_ros.physics.state import new_log, next_event
+from golf_sim_ros.physics.state.events import new_log, next_event
 from hard_scenes import IN_A_BOWL, poured
 from other_process import run
 

@@ -3,11 +3,10 @@
 from math import cos, hypot, sin, sqrt
 import os
 
-from golf_sim_ros.physics import (PENNER, Collision, Course, Material, Patch, Phase, Plane, Rejected, Result,
+from golf_sim_ros.physics import (Collision, Course, Material, PENNER, Patch, Phase, Plane, Rejected, Result,
                                   World, ground_height, rolling_resistance_of_stimp)
-from golf_sim_ros.physics.ground.cup import DEPTH
-from golf_sim_ros.physics.ground.cup import RADIUS as HOLE
-from golf_sim_ros.physics.ground.solid import FLAGSTICK_RADIUS
+from golf_sim_ros.physics.geometry.cup import DEPTH, RADIUS as HOLE
+from golf_sim_ros.physics.geometry.solid import FLAGSTICK_RADIUS
 import numpy as np
 from oracles import RADIUS
 import pytest

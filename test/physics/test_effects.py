@@ -4,11 +4,11 @@ from itertools import product
 from math import isfinite
 
 from driving_range import HARD, TURF, level
-from golf_sim_ros.physics import ACCURACY, EFFECTS, Air, Shot, World, register_effect, simulate
-from golf_sim_ros.physics.engine import missing
+from golf_sim_ros.physics import ACCURACY, Air, EFFECTS, Shot, World, register_effect, simulate
+from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, protocol, pull
+from golf_sim_ros.physics.engine.engines import missing
 from golf_sim_ros.physics.jit import compiled, entry
-from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, laws, pull
-from golf_sim_ros.physics.model import build, ground
+from golf_sim_ros.physics.scene.kernel_model import build, ground
 import numpy as np
 from other_process import run
 import pytest
@@ -82,14 +82,14 @@ def test_an_effect_is_finite_and_repeatable(name, told):
 @entry
 def asked(effect, ground, flow, force):
     """What an effect says of a flying ball: acceleration, spin rate, longest step."""
-    return (laws.acceleration(effect, flow), laws.spin_rate(effect, flow),
-            laws.longest_step(effect, ground, flow, force, 2.0))
+    return (protocol.acceleration(effect, flow), protocol.spin_rate(effect, flow),
+            protocol.longest_step(effect, ground, flow, force, 2.0))
 
 
 def said(name, run=asked):
     """All that of one ball, by `asked` or what it was compiled to."""
     velocity, spin = (40.0, 3.0, 14.0), (20.0, -280.0, 10.0)
-    flow = laws.Flow(velocity, float(np.linalg.norm(velocity)), spin, (1.0, 2.0, 30.0), velocity)
+    flow = protocol.Flow(velocity, float(np.linalg.norm(velocity)), spin, (1.0, 2.0, 30.0), velocity)
     scene = SCENES['wind']
     return run(EFFECTS[name].record(scene), ground(scene.course), flow, (-8.0, 0.5, -6.0))
 
@@ -267,12 +267,12 @@ def test_another_package_can_add_an_effect():
 
 def ends_with_down_draught():
     """Ends of a shot without and with an effect that another package registers."""
-    from golf_sim_ros.physics.effects import laws
+    from golf_sim_ros.physics.effects import protocol
     from typing import NamedTuple
 
     class DownDraught(NamedTuple):
         push: float = 1.0
 
-    laws.acceleration.register(DownDraught)(lambda effect, flow: (0.0, 0.0, -effect.push))
+    protocol.acceleration.register(DownDraught)(lambda effect, flow: (0.0, 0.0, -effect.push))
     register_effect('down_draught', lambda scene: DownDraught(), lambda scene: '', 'Pushes down.')
     return [end(SCENES['calm turf'], ('gravity', *more)) for more in ((), ('down_draught',))]

@@ -15,12 +15,12 @@ from other_process import run
 import pytest
 
 from golf_sim_ros.course import load_course, shipped_courses
-from golf_sim_ros.physics import Air, EngineUnavailable, PowerProfile, World, simulate, simulate_many, Shot
-from golf_sim_ros.physics import batch, engine
-from golf_sim_ros.physics.jit import build, GENERICS, ROLES
+from golf_sim_ros.physics import Air, EngineUnavailable, PowerProfile, Shot, World, simulate, simulate_many
+from golf_sim_ros.physics.engine import batch, engines
+from golf_sim_ros.physics.jit import GENERICS, ROLES, build
 from golf_sim_ros.physics.jit.build import Build, FAILED, Part, READY
 
-needs_numba = pytest.mark.skipif(bool(engine.missing()), reason=engine.missing() or 'numba is here')
+needs_numba = pytest.mark.skipif(bool(engines.missing()), reason=engines.missing() or 'numba is here')
 COURSES = sorted(shipped_courses())
 OTHER_COURSES = {
     'hard ground': level(HARD), 'no air': level(TURF, air=Air(pressure=0.0)),
@@ -34,8 +34,8 @@ PATIENCE = 600.0  # s: a child of low priority, beside other tests
 @pytest.fixture
 def programs(monkeypatch):
     """No program is known in this process yet, and 'auto' means auto."""
-    monkeypatch.setattr(engine.Program, 'known', {})
-    monkeypatch.delenv(engine.VARIABLE, raising=False)
+    monkeypatch.setattr(engines.Program, 'known', {})
+    monkeypatch.delenv(engines.VARIABLE, raising=False)
 
 
 def drive(world):
@@ -57,18 +57,18 @@ def test_an_unknown_engine_is_refused_with_the_known_ones():
 def test_a_world_begins_in_plain_python(programs):
     world = World(level(TURF))
     drive(world)
-    assert world.engine == 'python' and engine.Program.of(world.program).build is None
+    assert world.engine == 'python' and engines.Program.of(world.program).build is None
 
 
 @needs_numba
 def test_the_compiled_engine_takes_over_between_shots_where_plain_python_takes_long(programs, monkeypatch):
-    monkeypatch.setattr(engine, 'WORTH_COMPILING', 0.0)
+    monkeypatch.setattr(engines, 'WORTH_COMPILING', 0.0)
     world = World(level(TURF))
     first = drive(world)
     assert world.engine == 'python'  # the build began with the first strike at the earliest
     world.reset()
     drive(world)
-    program = engine.Program.of(world.program)
+    program = engines.Program.of(world.program)
     assert program.build.wait(PATIENCE) and program.build.state == READY, program.build.reason
     world.reset()
     assert drive(world) == pytest.approx(first, abs=1e-9) and world.engine == 'compiled'
@@ -76,8 +76,8 @@ def test_the_compiled_engine_takes_over_between_shots_where_plain_python_takes_l
 
 
 def test_what_is_missing_is_said_once_where_plain_python_takes_long(programs, monkeypatch, caplog):
-    monkeypatch.setattr(engine, 'WORTH_COMPILING', 0.0)
-    for module in (engine, build):
+    monkeypatch.setattr(engines, 'WORTH_COMPILING', 0.0)
+    for module in (engines, build):
         monkeypatch.setattr(module, 'missing', lambda: 'numba is not installed: pip install numba')
     world = World(level(TURF))
     for _ in range(3):
@@ -106,12 +106,12 @@ def refusal():
 def test_a_batch_is_compiled_where_it_has_many_shots_and_says_so(programs, monkeypatch, caplog):
     monkeypatch.setattr(batch, 'SHORT_WAIT', 0.0)
     monkeypatch.setattr(build, 'is_kept', lambda key: False)
-    monkeypatch.setattr(engine, 'is_kept', lambda key: False)
+    monkeypatch.setattr(engines, 'is_kept', lambda key: False)
     velocities, spins = random_shots(batch.MANY_SHOTS, seed=1)
     few = simulate_many(level(TURF), velocities[:3], spins[:3])
-    assert not engine.Program.known and not caplog.records
+    assert not engines.Program.known and not caplog.records
     many = simulate_many(level(TURF), velocities, spins)
-    (program,) = engine.Program.known.values()
+    (program,) = engines.Program.known.values()
     assert program.build.state == READY, program.build.reason
     assert f'compiling the physics for {batch.MANY_SHOTS} shots' in caplog.text
     np.testing.assert_allclose(many['position'][:3], few['position'], rtol=0, atol=1e-9)
@@ -150,7 +150,7 @@ def test_one_program_serves_every_course_with_one_ball_and_one_with_several():
 
 @needs_numba
 def test_another_course_compiles_nothing():
-    entries = engine.compiled()[1:4]
+    entries = engines.compiled()[1:4]
     drive(World(load_course(COURSES[0]), engine='compiled'))
     compiled = [len(entry.signatures) for entry in entries]
     for course in [*map(load_course, COURSES), *OTHER_COURSES.values()]:
@@ -225,7 +225,7 @@ def test_modules_of_effects_from_elsewhere_are_imported_by_the_child():
 def modules_with_an_effect_of_ours():
     """Modules that a child imports, once a test module has registered an effect."""
     from typing import NamedTuple
-    from golf_sim_ros.physics.effects import laws
+    from golf_sim_ros.physics.effects import protocol
 
     class Rain(NamedTuple):
         rate: float = 1.0
@@ -233,7 +233,7 @@ def modules_with_an_effect_of_ours():
     def acceleration(effect, flow):
         return 0.0, 0.0, -effect.rate
     acceleration.__module__ = 'effect_from_elsewhere'
-    laws.acceleration.register(Rain)(acceleration)
+    protocol.acceleration.register(Rain)(acceleration)
     return [name for name in build.foreign_modules() if name != __name__]
 
 

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 
 from driving_range import TURF, level
-from golf_sim_ros.as_json import ball_text, collision_text, result_text
 from golf_sim_ros.course import load_course, shipped_courses
 from golf_sim_ros.physics import Phase, Result, World, simulate_many
-from golf_sim_ros.physics.air import Air
-from golf_sim_ros.physics.report import Collision
-from golf_sim_ros.physics.state import BALL, restored
+from golf_sim_ros.physics.properties.air import Air
+from golf_sim_ros.physics.result import Collision
+from golf_sim_ros.physics.state.ball import BALL
+from golf_sim_ros.physics.state.serialize import restored
+from golf_sim_ros.recording.json_format import ball_text, collision_text, result_text
 
 CASES = Path(__file__).parents[1] / 'data' / 'cases'
 DRIVE, PUTT = (60.0, 1.0, 15.0), (2.0, 0.0, 0.0)

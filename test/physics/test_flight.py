@@ -3,13 +3,13 @@
 from math import log, pi, radians
 
 from driving_range import (DRIVE, EVERYTHING, GRAVITY, HARD, TURF, hilly, launched, level, random_shots)
-from golf_sim_ros.physics import (ACCURACY, EFFECTS, Course, LogProfile, Patch, Phase, Plane, PowerProfile,
+from golf_sim_ros.physics import (ACCURACY, Course, EFFECTS, LogProfile, Patch, Phase, Plane, PowerProfile,
                                   Shot, UniformProfile, World, register_effect, simulate, simulate_many)
-from golf_sim_ros.physics.air import density
 from golf_sim_ros.physics.effects import wind_at
 from golf_sim_ros.physics.effects.drag import dynamic_push
 from golf_sim_ros.physics.effects.ferguson_drag import FergusonDrag
 from golf_sim_ros.physics.effects.ferguson_lift import FergusonLift
+from golf_sim_ros.physics.properties.air import density
 from hypothesis import HealthCheck, assume, given, settings, strategies as st
 import numpy as np
 import oracles

@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from golf_sim_ros.physics import shot as shot_
+from golf_sim_ros.physics.trajectory import shot_record as shot_
 from other_process import run
 
 TOOLS = Path(__file__).parents[2] / 'tools'

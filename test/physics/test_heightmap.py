@@ -4,13 +4,13 @@ from math import pi, sqrt
 import os
 
 from driving_range import EVERYTHING, GRAVITY, HARD, random_shots
-from golf_sim_ros.checked import CourseError
 from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import (ACCURACY, METHODS, Course, Heightmap, Material, Phase, Plane, Preset,
+from golf_sim_ros.course.schema import CourseError
+from golf_sim_ros.physics import (ACCURACY, Course, Heightmap, METHODS, Material, Phase, Plane, Preset,
                                   Restitution, World, simulate_many)
+from golf_sim_ros.physics.geometry import heightmap, surface_protocol
+from golf_sim_ros.physics.geometry.bicubic import nodes
 from golf_sim_ros.physics.jit import entry
-from golf_sim_ros.physics.ground import heightmap, laws
-from golf_sim_ros.physics.ground.bicubic import nodes
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from oracles import G, RADIUS
@@ -24,13 +24,13 @@ MANY = int(os.environ.get('GOLF_SIM_SHOTS', '60'))
 @entry
 def top(kind, x, y):
     """Highest ground of a kind; Python can call it."""
-    return laws.top(kind, x, y)
+    return surface_protocol.top(kind, x, y)
 
 
 @entry
 def nearest(kind, part, point):
     """Distance of a part of a kind and direction from there; Python can call it."""
-    return laws.nearest(kind, part, point)
+    return surface_protocol.nearest(kind, part, point)
 
 
 def surface(height, material=GREEN, spacing=0.5, low=(-10, -10), high=(10, 10)):

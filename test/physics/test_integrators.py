@@ -4,10 +4,10 @@ from typing import NamedTuple
 
 from driving_range import EVERYTHING, TURF, first_touches, launched, level, random_shots
 from golf_sim_ros.physics import ACCURACY, METHODS, Preset, World, simulate_many
-from golf_sim_ros.physics.air import density, viscosity
 from golf_sim_ros.physics.integrators import dormand_prince, runge_kutta
 from golf_sim_ros.physics.integrators.dormand_prince import DormandPrince
-from golf_sim_ros.physics.model import Limits
+from golf_sim_ros.physics.properties.air import density, viscosity
+from golf_sim_ros.physics.scene.kernel_model import Limits
 import numpy as np
 import oracles
 from other_process import run

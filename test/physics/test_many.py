@@ -4,7 +4,8 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 
 from driving_range import TURF, level
-from golf_sim_ros.physics import batch, simulate_many
+from golf_sim_ros.physics import simulate_many
+from golf_sim_ros.physics.engine import batch
 import numpy as np
 import pytest
 

@@ -4,11 +4,12 @@ from math import cos, hypot, sin
 import os
 
 from driving_range import GRAVITY, HARD
-from golf_sim_ros.physics import Course, Material, Mesh, Patch, Phase, Plane, World, ground_height, model
+from golf_sim_ros.physics import Course, Material, Mesh, Patch, Phase, Plane, World, ground_height
+from golf_sim_ros.physics.geometry import surface_protocol
+from golf_sim_ros.physics.geometry.mesh import meshes
+from golf_sim_ros.physics.geometry.surfaces import look_down
 from golf_sim_ros.physics.jit import entry
-from golf_sim_ros.physics.ground import laws
-from golf_sim_ros.physics.ground.mesh import meshes
-from golf_sim_ros.physics.ground.surface import look_down
+from golf_sim_ros.physics.scene import kernel_model
 import numpy as np
 from oracles import RADIUS
 import pytest
@@ -217,7 +218,7 @@ def test_no_shot_passes_a_single_sheet(crumpled):
     vertices, faces = floor(5)
     vertices = vertices * 30 + crumpled * rng.standard_normal((len(vertices), 1)) * (0, 0, 1)
     world = World(course(vertices, faces, HARD), effects=GRAVITY)
-    ground = model.ground(world.course)
+    ground = kernel_model.ground(world.course)
     top = vertices[:, 2].max()
     for _ in range(SHOTS):
         place = np.array((*rng.uniform(-4, 4, 2), top + RADIUS + rng.uniform(0, 2)))
@@ -254,7 +255,7 @@ def test_a_mesh_of_two_sides_is_hit_from_below():
 @entry
 def next_part(kind, part, low, high):
     """Next part of a kind; Python can call it."""
-    return laws.next_part(kind, part, low, high)
+    return surface_protocol.next_part(kind, part, low, high)
 
 
 @pytest.mark.parametrize('count', [1, 2, 4, 5, 9, 300])

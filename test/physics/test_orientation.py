@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Orientations against scipy's rotations."""
 from golf_sim_ros.physics import Course, Plane, World
-from golf_sim_ros.physics.orientation import UPRIGHT
+from golf_sim_ros.physics.engine.orientation import UPRIGHT
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation

@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 from driving_range import launched, level
-from golf_sim_ros.materials import shipped
-from golf_sim_ros.physics import ACCURACY, PENNER, Course, Material, Phase, Plane, World, simulate_many
+from golf_sim_ros.course.material_file import shipped
+from golf_sim_ros.physics import ACCURACY, Course, Material, PENNER, Phase, Plane, World, simulate_many
 import numpy as np
 import pytest
 

@@ -38,7 +38,8 @@ class Process:
     """A node or tool in a process of its own, and all it has written so far (`output`)."""
 
     def __init__(self, module, *arguments, environment=None):
-        command = [sys.executable, '-u', '-m', f'golf_sim_ros.{module}', *arguments]
+        folder = '' if '.' in module else 'nodes.'
+        command = [sys.executable, '-u', '-m', f'golf_sim_ros.{folder}{module}', *arguments]
         self.popen = subprocess.Popen(
             command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
             env={**os.environ, **(environment or {})}, start_new_session=True)

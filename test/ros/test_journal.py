@@ -9,9 +9,9 @@ from std_srvs.srv import SetBool
 
 pytest.importorskip('rosbags')
 
-from golf_sim_ros.bag import read_bag  # noqa: E402
-from golf_sim_ros.journal import opened  # noqa: E402
-from golf_sim_ros.tools.resimulate import main  # noqa: E402
+from golf_sim_ros.cli.resimulate import main  # noqa: E402
+from golf_sim_ros.recording.bag import read_bag  # noqa: E402
+from golf_sim_ros.recording.journal import opened  # noqa: E402
 from processes import LASTING, parameters, place, READY, wait_until  # noqa: E402
 
 SHOTS = (((12.0, 1.0, 9.0), (0.0, -150.0, 20.0)), ((10.0, -2.0, 8.0), (5.0, 100.0, 0.0)),
@@ -50,7 +50,7 @@ def play_in_gusts(golfer, poses):
 def test_three_shots_in_gusts_are_recorded_and_run_again_to_the_bit(
         start, make_golfer, tmp_path, capsys, storage, pace):
     path = tmp_path / 'bag'
-    recorder = start('tools.record_play', '-o', str(path), '--namespace', '/recorded', '--storage', storage)
+    recorder = start('cli.record_play', '-o', str(path), '--namespace', '/recorded', '--storage', storage)
     sim = start('sim_node', *parameters('/recorded', **pace))
     sim.wait_for(READY)
     recorder.wait_for('recording ball')
@@ -113,14 +113,14 @@ def test_who_comes_late_gets_the_last_of_the_journal_and_the_configuration(
 
 
 def test_a_recorder_that_cannot_write_says_so_in_one_line(start, tmp_path):
-    process = start('tools.record_play', '-o', str(tmp_path))
+    process = start('cli.record_play', '-o', str(tmp_path))
     assert process.wait() == 1
     assert process.output.startswith('record_play: ') and process.output.count('\n') == 1
 
 
 def test_a_recorder_without_a_sim_leaves_a_complete_bag(start, tmp_path):
     arguments = ('-o', str(tmp_path / 'bag'), '--namespace', '/nowhere', '--balls', 'red')
-    process = start('tools.record_play', *arguments)
+    process = start('cli.record_play', *arguments)
     process.wait_for('recording red of /nowhere')
     assert process.stop() == 0
     assert topics_without_messages(tmp_path / 'bag') >= {'/nowhere/red/pose', '/nowhere/journal'}

@@ -11,8 +11,8 @@ import pytest
 from rcl_interfaces.srv import GetParameters
 from rclpy.parameter import parameter_value_to_python
 
-from golf_sim_ros.parameters import Parameters
-from golf_sim_ros.wind_node import DEFAULTS
+from golf_sim_ros.nodes.parameters import Parameters
+from golf_sim_ros.nodes.wind_node import DEFAULTS
 from processes import Process, wait_until
 
 pytest.importorskip('launch_ros.actions', reason="ROS's launch is not installed")

@@ -9,14 +9,14 @@ from rclpy.serialization import serialize_message
 from visualization_msgs.msg import Marker
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.markers import course_markers, HOLE_DIAMETER, MARGIN, outskirts
-from golf_sim_ros.messages import header
-from golf_sim_ros.physics import (Course, Cylinder, ground_height, Heightmap, Material, Patch, Plane, Sphere,
-                                  Water, World)
-from golf_sim_ros.physics.ground.cup import DEPTH
-from golf_sim_ros.painted import holds
-from golf_sim_ros.play_markers import CONTACTS, Scene, Trail, TRAIL
-from golf_sim_ros.slabs import triangles
+from golf_sim_ros.drawing.polygon_triangles import triangles
+from golf_sim_ros.drawing.zone_triangles import holds
+from golf_sim_ros.nodes.conversions import header
+from golf_sim_ros.nodes.markers.course_markers import HOLE_DIAMETER, MARGIN, course_markers, outskirts
+from golf_sim_ros.nodes.markers.play_markers import CONTACTS, Scene, TRAIL, Trail
+from golf_sim_ros.physics import (Course, Cylinder, Heightmap, Material, Patch, Plane, Sphere, Water, World,
+                                  ground_height)
+from golf_sim_ros.physics.geometry.cup import DEPTH
 
 GRASS, SAND = Material('grass', color=(0.1, 0.5, 0.1)), Material('sand', color=(0.9, 0.8, 0.6))
 SQUARE = ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))

@@ -5,7 +5,7 @@ from math import inf, nan
 
 import pytest
 
-from golf_sim_ros import account, messages
+from golf_sim_ros.nodes import conversions, log_lines
 from golf_sim_ros.physics import Collision, Result
 
 RESULT = Result(
@@ -14,7 +14,7 @@ RESULT = Result(
 
 
 def test_a_result_has_its_keys_in_order_and_is_rounded_for_people():
-    told = json.loads(messages.result_json(RESULT, 9).data)
+    told = json.loads(conversions.result_json(RESULT, 9).data)
     assert list(told) == [
         'shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time', 'duration',
         'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time', 'position', 'velocity', 'spin',
@@ -24,16 +24,16 @@ def test_a_result_has_its_keys_in_order_and_is_rounded_for_people():
 
 
 def test_no_number_is_told_as_minus_zero():
-    assert '-0.0,' not in messages.result_json(RESULT, 1).data
-    assert '-0.0]' not in messages.result_json(RESULT, 1).data
+    assert '-0.0,' not in conversions.result_json(RESULT, 1).data
+    assert '-0.0]' not in conversions.result_json(RESULT, 1).data
 
 
 def test_without_a_hole_to_hole_is_null():
-    assert json.loads(messages.result_json(RESULT._replace(to_hole=None), 1).data)['to_hole'] is None
+    assert json.loads(conversions.result_json(RESULT._replace(to_hole=None), 1).data)['to_hole'] is None
 
 
 def test_a_rejection_tells_what_was_not_finite_as_null_in_strict_json():
-    data = messages.rejection_json(3, 'red', (nan, 1.0, -inf), (0.0, 0.0, 2.0), 'because').data
+    data = conversions.rejection_json(3, 'red', (nan, 1.0, -inf), (0.0, 0.0, 2.0), 'because').data
     told = json.loads(data, parse_constant=pytest.fail)
     assert list(told) == ['shot', 'ball', 'status', 'velocity', 'spin', 'reason']
     assert told == {'shot': 3, 'ball': 'red', 'status': 'rejected', 'velocity': [None, 1.0, None],
@@ -42,31 +42,31 @@ def test_a_rejection_tells_what_was_not_finite_as_null_in_strict_json():
 
 def test_a_collision_is_told_in_full_precision():
     third = (1 / 3, 0.0, 0.0)
-    data = messages.collision_json(Collision(0.1, 'ball', 'bounce', 'sand', *[third] * 7)).data
+    data = conversions.collision_json(Collision(0.1, 'ball', 'bounce', 'sand', *[third] * 7)).data
     told = json.loads(data)
     assert (told['with'], told['normal'][0], told['time']) == ('sand', 1 / 3, 0.1)
     assert 'with_' not in told
 
 
 def test_a_stamp_is_the_start_plus_simulated_time_to_the_nanosecond():
-    stamp = messages.header('course', 1_700_000_000_900_000_000, 0.104).stamp
+    stamp = conversions.header('course', 1_700_000_000_900_000_000, 0.104).stamp
     assert (stamp.sec, stamp.nanosec) == (1_700_000_001, 4_000_000)
 
 
 def test_the_log_tells_a_drive_as_a_player_would():
-    assert account.line(RESULT) == (
+    assert log_lines.line(RESULT) == (
         'driver-like shot: carry 251 m, total 268 m, 3 m left, fairway, 112 m to the hole')
 
 
 def test_the_log_tells_a_putt_to_the_centimetre_and_without_carry():
     putt = RESULT._replace(velocity=(2.0, 0.0, 0.0), carry=0.0, total=3.456, side=-0.021, lie='green',
                            to_hole=0.5)
-    assert account.line(putt) == 'putt: total 3.46 m, 0.02 m right, green, 0.50 m to the hole'
+    assert log_lines.line(putt) == 'putt: total 3.46 m, 0.02 m right, green, 0.50 m to the hole'
 
 
 def test_the_log_tells_how_a_shot_ended_that_did_not_come_to_rest():
-    assert 'out of bounds' in account.line(RESULT._replace(status='out_of_bounds', lie='rough'))
-    assert 'to the hole' not in account.line(RESULT._replace(status='holed'))
+    assert 'out of bounds' in log_lines.line(RESULT._replace(status='out_of_bounds', lie='rough'))
+    assert 'to the hole' not in log_lines.line(RESULT._replace(status='holed'))
 
 
 @pytest.mark.parametrize('velocity, kind', [
@@ -74,4 +74,4 @@ def test_the_log_tells_how_a_shot_ended_that_did_not_come_to_rest():
     ((35.0, 0.0, 20.0), 'wedge-like shot'), ((8.0, 0.0, 6.0), 'chip'), ((3.0, -1.0, 0.0), 'putt'),
     ((0.0, 0.0, 60.0), 'wedge-like shot')])
 def test_a_shot_is_called_after_its_launch(velocity, kind):
-    assert account.kind(velocity) == kind
+    assert log_lines.kind(velocity) == kind

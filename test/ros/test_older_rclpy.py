@@ -12,7 +12,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from visualization_msgs.msg import MarkerArray
 
-from golf_sim_ros import older_rclpy
+from golf_sim_ros.nodes import older_rclpy
 from processes import parameters, READY, wait_until
 
 FOLDER = Path(__file__).parent / 'as_humble'
@@ -71,5 +71,5 @@ def test_the_sim_notices_who_joins_and_plays(start_as_humble, client, make_golfe
     wait_until(lambda: markers and poses, 'the course and the ball are told to who joins')
     result = make_golfer('/old_sim').play((20.0, 0.0, 5.0), (0.0, -100.0, 0.0))
     assert result['status'] == 'at_rest'
-    shoot = start_as_humble('tools.shoot', '7i', *parameters('/old_sim'))
+    shoot = start_as_humble('cli.shoot', '7i', *parameters('/old_sim'))
     assert shoot.wait() == 0, shoot.output

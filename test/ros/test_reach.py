@@ -22,7 +22,7 @@ def sim_in(start):
 
 def shooting(start, namespace, *more):
     """A `shoot` of a drive in `namespace`."""
-    return start('tools.shoot', 'driver', '--timeout', '60', '--namespace', namespace, *more)
+    return start('cli.shoot', 'driver', '--timeout', '60', '--namespace', namespace, *more)
 
 
 def struck(client):
@@ -81,7 +81,7 @@ def test_a_sim_that_is_killed_in_flight_and_stays_away_is_given_up(start, sim_in
 
 def test_a_sim_that_was_killed_before_the_strike_is_not_struck(start, sim_in):
     sim_in('/dead').stop(signal.SIGKILL)  # its readers are matched for some more seconds
-    shoot = start('tools.shoot', 'driver', '--timeout', '4', '--namespace', '/dead')
+    shoot = start('cli.shoot', 'driver', '--timeout', '4', '--namespace', '/dead')
     assert shoot.wait() == 1
     assert shoot.lines == ['shoot: no sim answers on /dead/shot yet\n',
                            'shoot: no sim answers on /dead/shot within 4 s\n']

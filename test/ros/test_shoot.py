@@ -79,7 +79,7 @@ def scripted(domain):
 def shoot(start):
     """`shoot('driver --print')` gives exit code and output; it looks for a sim for long."""
     def run(line):
-        process = start('tools.shoot', '--timeout', '60', *line.split())
+        process = start('cli.shoot', '--timeout', '60', *line.split())
         code = process.wait()  # on a busy machine a sim may be found late, and that be said
         return code, ''.join(line for line in process.lines if not line.endswith(' yet\n'))
     return run
@@ -192,7 +192,7 @@ def test_it_exits_with_one_when_the_sim_goes_away_during_the_shot(shoot, scripte
 
 def test_an_interrupt_ends_the_wait_without_a_traceback(start, scripted):
     scripted('/long').answer = lambda number: {'velocity': [0.0, 0.0, 1.0]}
-    process = start('tools.shoot', 'pw', '--timeout', '60', '--namespace', '/long')
+    process = start('cli.shoot', 'pw', '--timeout', '60', '--namespace', '/long')
     process.wait_for('pw: 102.0 mph')
     assert process.stop(signal.SIGINT) == 130
     assert 'Traceback' not in process.output
@@ -342,7 +342,7 @@ def test_a_ball_in_motion_rejects_the_next_shot(start, golfer):
     golfer.strike((5.0, 0.0, 40.0))
     wait_until(lambda: place(golfer.poses[-1]) != rest, 'the ball moves')
     golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=True))   # so that it still does then
-    second = start('tools.shoot', 'pw', '--timeout', '60', '--namespace', '/real')
+    second = start('cli.shoot', 'pw', '--timeout', '60', '--namespace', '/real')
     second.wait_for('pw: 102.0 mph')
     golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=False))
     assert second.wait() == 1

@@ -15,8 +15,8 @@ from std_msgs.msg import String
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
 
-from golf_sim_ros.messages import triple
-from golf_sim_ros.parameters import Parameters
+from golf_sim_ros.nodes.conversions import triple
+from golf_sim_ros.nodes.parameters import Parameters
 from processes import LASTING, LATCHED, parameters, place, READY, seconds, wait_until
 
 CHIP, CHIP_SPIN = (9.0, 0.5, 6.0), (0.0, -100.0, 0.0)
@@ -336,7 +336,7 @@ def test_a_namespace_and_a_remapped_topic_appear_in_the_line_to_paste(start):
 
 
 def test_two_sims_in_one_process_play_apart(domain, make_golfer):
-    from golf_sim_ros.sim_node import SimNode
+    from golf_sim_ros.nodes.sim_node import SimNode
     context = rclpy.context.Context()
     rclpy.init(context=context, domain_id=domain)
     names = ('/left', '/right')

@@ -5,8 +5,8 @@ import signal
 from diagnostic_msgs.msg import DiagnosticArray
 import pytest
 
-from golf_sim_ros.physics.engine import missing
-from golf_sim_ros.tools.resimulate import main
+from golf_sim_ros.cli.resimulate import main
+from golf_sim_ros.physics.engine.engines import missing
 from processes import parameters, READY, wait_until
 
 BALLS = [f'b{number}' for number in range(20)]
@@ -38,7 +38,7 @@ def test_with_twenty_balls_the_compiled_engine_takes_over_between_shots_and_the_
     sim.wait_for(READY)
     golfers = [make_golfer('/crowd', name) for name in BALLS]
     told = golfers[0].listen(DiagnosticArray, '/diagnostics')
-    recorder = start('tools.record_play', '--output', str(tmp_path / 'bag'), '--namespace', '/crowd')
+    recorder = start('cli.record_play', '--output', str(tmp_path / 'bag'), '--namespace', '/crowd')
     recorder.wait_for('recording')
     played = 0
     while 'takes over' not in sim.output and played < 30:

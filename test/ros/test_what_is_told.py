@@ -7,7 +7,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_srvs.srv import SetBool
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.diagnosis import Diagnosis
+from golf_sim_ros.nodes.diagnostics import Diagnosis
 from processes import parameters, READY, wait_until
 from told_game import ToldGame
 
@@ -21,7 +21,7 @@ def told(diagnostics, name, key):
 def test_no_warning_follows_a_pause(monkeypatch):
     told = ToldGame(monkeypatch, load_course('golf_without_friends'))
     clock = told.clock
-    monkeypatch.setattr('golf_sim_ros.diagnosis.monotonic', clock)
+    monkeypatch.setattr('golf_sim_ros.nodes.diagnostics.monotonic', clock)
     told.game.diagnosis = Diagnosis()
     told.send('ball', (50.0, 0.0, 20.0))
     told.step(50)
@@ -75,8 +75,8 @@ def test_strikes_that_were_lost_unseen_are_counted_in_the_diagnostics(sim, make_
 
 def test_security_without_a_keystore_is_one_line(start):
     asked = {'ROS_SECURITY_ENABLE': 'true', 'ROS_SECURITY_STRATEGY': 'Enforce', 'ROS_SECURITY_KEYSTORE': ''}
-    for module in ('sim_node', 'wind_node', 'tools.shoot', 'tools.record_play'):
-        node = start(module, *(['driver'] if module == 'tools.shoot' else []), environment=asked)
+    for module in ('sim_node', 'wind_node', 'cli.shoot', 'cli.record_play'):
+        node = start(module, *(['driver'] if module == 'cli.shoot' else []), environment=asked)
         assert node.wait() == 1
         line, = node.lines
         assert "ROS_SECURITY_KEYSTORE '' is no keystore" in line

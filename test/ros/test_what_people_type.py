@@ -13,9 +13,9 @@ from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.parameter import get_parameter_value
 
 from golf_sim_ros import __version__
-from golf_sim_ros.command_line import only_for_all_nodes
-from golf_sim_ros.parameters import Parameters
-from golf_sim_ros.wind_node import DEFAULTS
+from golf_sim_ros.nodes.command_line import only_for_all_nodes
+from golf_sim_ros.nodes.parameters import Parameters
+from golf_sim_ros.nodes.wind_node import DEFAULTS
 from processes import READY
 
 ROOT = Path(__file__).parents[2]

@@ -13,7 +13,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profi
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 
-from golf_sim_ros.wind.gusts import Gusts, GustSettings
+from golf_sim_ros.wind.gusts import GustSettings, Gusts
 from processes import parameters, wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

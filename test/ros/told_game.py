@@ -5,12 +5,12 @@ import json
 from types import SimpleNamespace
 from unittest.mock import MagicMock
 
-from golf_sim_ros.game import Game
-from golf_sim_ros.journal import opened
-from golf_sim_ros.parameters import Parameters
+from golf_sim_ros.nodes.game import Game
+from golf_sim_ros.nodes.parameters import Parameters
+from golf_sim_ros.nodes.takeover import Takeover
 from golf_sim_ros.physics import World
-from golf_sim_ros.replay import difference, rerun, shots, tick_of
-from golf_sim_ros.takeover import Takeover
+from golf_sim_ros.recording.journal import opened
+from golf_sim_ros.recording.replay import difference, rerun, shots, tick_of
 
 LOOK = 0.002  # s that pass from one look at the clock to the next
 
@@ -31,7 +31,7 @@ class ToldGame:
 
     def __init__(self, monkeypatch, course, balls=('ball',), factor=1.0, rate=250.0):
         self.clock = TurnedClock()
-        monkeypatch.setattr('golf_sim_ros.pace.monotonic', self.clock)
+        monkeypatch.setattr('golf_sim_ros.nodes.real_time.monotonic', self.clock)
         self.given = Parameters(course='', balls=balls, real_time_factor=factor, rate=rate)
         self.world, self.entries, self.results, self.collisions = World(course, balls), [], [], []
         self.log, self.refusals, self.broadcast = MagicMock(), MagicMock(), MagicMock()

@@ -8,7 +8,7 @@ import pytest
 from golf_sim_ros.physics import ACCURACY
 from golf_sim_ros.study import promises, tables
 from golf_sim_ros.study.effects import EffectRow
-from golf_sim_ros.study.measure import played, Row, Stage, ticked, Truth
+from golf_sim_ros.study.measure import Row, Stage, Truth, played, ticked
 from golf_sim_ros.study.scenes import quick_scenes, rack, scenes
 from golf_sim_ros.study.sizes import SizeRow
 from golf_sim_ros.study.ticks import STEPPED, TickRow

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings as hypothesis_settings
 from hypothesis.strategies import floats, integers
 
-from golf_sim_ros.wind.gusts import Gusts, GustSettings, gust, gust_wind, turbulence
+from golf_sim_ros.wind.gusts import GustSettings, Gusts, gust, gust_wind, turbulence
 
 BREEZE = GustSettings(speed=4.0, speed_spread=3.0, direction=0.5, direction_spread=1.0)
 TURBULENT = BREEZE._replace(turbulence=0.2)

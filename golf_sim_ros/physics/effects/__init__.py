@@ -16,8 +16,8 @@ import pkgutil
 from typing import Callable, NamedTuple, Optional
 
 from ..jit import kernel, literal_unroll
-from ..vector import ZERO, add, length, sub
-from . import laws
+from ..mechanics.vector import ZERO, add, length, sub
+from . import protocol
 
 
 class Scene(NamedTuple):
@@ -137,7 +137,7 @@ def wind_at(effects, ground, position):
     """Velocity of the air at `position`."""
     wind = ZERO
     for effect in literal_unroll(effects):
-        wind = add(wind, laws.air_velocity(effect, ground, position))
+        wind = add(wind, protocol.air_velocity(effect, ground, position))
     return wind
 
 
@@ -146,7 +146,7 @@ def pull(effects, position):
     """Acceleration that acts on every ball at `position`."""
     total = ZERO
     for effect in literal_unroll(effects):
-        total = add(total, laws.gravity(effect, position))
+        total = add(total, protocol.gravity(effect, position))
     return total
 
 
@@ -154,7 +154,7 @@ def pull(effects, position):
 def meet_air(effects, ground, position, velocity, spin):
     """`Flow` of the air around a flying ball."""
     through_air = sub(velocity, wind_at(effects, ground, position))
-    return laws.Flow(through_air, length(through_air), spin, position, velocity)
+    return protocol.Flow(through_air, length(through_air), spin, position, velocity)
 
 
 @kernel
@@ -164,8 +164,8 @@ def flight_rates(effects, ground, position, velocity, spin):
     force = ZERO
     torque = ZERO
     for effect in literal_unroll(effects):
-        force = add(force, add(laws.gravity(effect, position), laws.acceleration(effect, flow)))
-        torque = add(torque, laws.spin_rate(effect, flow))
+        force = add(force, add(protocol.gravity(effect, position), protocol.acceleration(effect, flow)))
+        torque = add(torque, protocol.spin_rate(effect, flow))
     return force, torque
 
 
@@ -175,7 +175,7 @@ def sinking(effects, position, velocity):
     weight = pull(effects, position)
     force = weight
     for effect in literal_unroll(effects):
-        force = add(force, laws.under_water(effect, weight, velocity))
+        force = add(force, protocol.under_water(effect, weight, velocity))
     return force
 
 
@@ -187,7 +187,7 @@ def longest_step(effects, ground, state, force, wanted):
     """
     flow = meet_air(effects, ground, *state)
     for effect in literal_unroll(effects):
-        wanted = laws.longest_step(effect, ground, flow, force, wanted)
+        wanted = protocol.longest_step(effect, ground, flow, force, wanted)
     return wanted
 
 
@@ -195,14 +195,14 @@ def longest_step(effects, ground, state, force, wanted):
 def blow(effects, wind):
     """Let the air move with `wind` [m/s at 10 m] from now on. Writes into the effects' records."""
     for effect in literal_unroll(effects):
-        laws.take_wind(effect, wind)
+        protocol.take_wind(effect, wind)
 
 
 @kernel
 def felt_normal(effects, normal, velocity, softness):
     """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
     for effect in literal_unroll(effects):
-        normal = laws.contact_normal(effect, normal, velocity, softness)
+        normal = protocol.contact_normal(effect, normal, velocity, softness)
     return normal
 
 

@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
-from ..vector import ZERO
-from . import laws
+from ..mechanics.vector import ZERO
+from . import protocol
 from .drag import dynamic_push
 from .published import drag_and_lift, spin_ratio, turning_about
 
@@ -49,7 +49,7 @@ def read(table, s):
             a * table[i, 2] + b * table[i + 1, 2] + c * table[i, 4] + d * table[i + 1, 4])
 
 
-@laws.acceleration.register(BearmanHarvey1976)
+@protocol.acceleration.register(BearmanHarvey1976)
 def _acceleration(effect, flow):
     if flow.speed == 0.0:
         return ZERO
@@ -58,7 +58,7 @@ def _acceleration(effect, flow):
     return drag_and_lift(effect.push, flow, ratio, drag, lift)
 
 
-laws.longest_step.register(BearmanHarvey1976)(turning_about)
+protocol.longest_step.register(BearmanHarvey1976)(turning_about)
 
 
 def record(scene):

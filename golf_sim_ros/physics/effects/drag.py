@@ -3,10 +3,10 @@
 from math import pi
 from typing import NamedTuple
 
-from .. import air
 from ..jit import kernel
-from ..vector import ZERO, dot, scale
-from . import laws
+from ..mechanics.vector import ZERO, dot, scale
+from ..properties import air
+from . import protocol
 
 CREEPING = 0.5  # m/s through the air: the speed below which it hardly matters where drag turns about
 NO_FLOW = 1e-18  # m^2/s^2: air that passes slower than the root of this does nothing
@@ -63,7 +63,7 @@ def drag_coefficient(law, ss, rr, flow=1.0):
                + law.crisis * crisis * fade * flow / ((crisis + rr * rr) * (ss + fade * flow))))
 
 
-@laws.acceleration.register(Drag)
+@protocol.acceleration.register(Drag)
 def _acceleration(effect, flow):
     vv = dot(flow.velocity, flow.velocity)
     if vv < NO_FLOW or effect.push == 0.0:
@@ -73,10 +73,10 @@ def _acceleration(effect, flow):
     return scale(coefficient * (-effect.push * flow.speed), flow.velocity)
 
 
-@laws.longest_step.register(Drag)
+@protocol.longest_step.register(Drag)
 def turning_about(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook how drag of the square of the speed turns about."""
-    return laws.passing(flow.velocity, force, CREEPING, wanted) if effect.push > 0.0 else wanted
+    return protocol.passing(flow.velocity, force, CREEPING, wanted) if effect.push > 0.0 else wanted
 
 
 def dynamic_push(course):

@@ -2,8 +2,8 @@
 """Air resistance after Ferguson et al. (2022): drag coefficient quadratic in the spin ratio."""
 from typing import NamedTuple
 
-from ..vector import length, scale
-from . import laws
+from ..mechanics.vector import length, scale
+from . import protocol
 from .drag import dynamic_push
 from .published import turning_about
 
@@ -28,7 +28,7 @@ class FergusonDrag(NamedTuple):
     c2: float
 
 
-@laws.acceleration.register(FergusonDrag)
+@protocol.acceleration.register(FergusonDrag)
 def _acceleration(effect, flow):
     if flow.speed == 0.0:
         return 0.0, 0.0, 0.0
@@ -37,7 +37,7 @@ def _acceleration(effect, flow):
     return scale(-effect.push * coefficient * flow.speed, flow.velocity)
 
 
-laws.longest_step.register(FergusonDrag)(turning_about)
+protocol.longest_step.register(FergusonDrag)(turning_about)
 
 
 def record(scene):

@@ -3,8 +3,8 @@
 from math import sqrt
 from typing import NamedTuple
 
-from ..vector import cross, length, scale
-from . import laws
+from ..mechanics.vector import cross, length, scale
+from . import protocol
 from .drag import dynamic_push
 from .published import FADE, turning_about
 
@@ -30,7 +30,7 @@ class FergusonLift(NamedTuple):
     fade: float
 
 
-@laws.acceleration.register(FergusonLift)
+@protocol.acceleration.register(FergusonLift)
 def _acceleration(effect, flow):
     if flow.speed == 0.0:
         return 0.0, 0.0, 0.0
@@ -44,7 +44,7 @@ def _acceleration(effect, flow):
     return scale(effect.push * strength * flow.speed * flow.speed, across)
 
 
-laws.longest_step.register(FergusonLift)(turning_about)
+protocol.longest_step.register(FergusonLift)(turning_about)
 
 
 def record(scene):

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..geometry.solid import Sphere, box
 from ..jit import kernel
-from ..ground.solid import Sphere, box
-from ..vector import ZERO, length, scale
-from . import laws
+from ..mechanics.vector import ZERO, length, scale
+from . import protocol
 
 LEAF = np.dtype([('center', 'f8', 3), ('radius', 'f8'), ('low', 'f8'), ('high', 'f8'), ('is_sphere', 'i8'),
                  ('drag', 'f8')], align=True)
@@ -33,7 +33,7 @@ def clearance(body, point):
     return max(over, sqrt(dx * dx + dy * dy) - body['radius'])
 
 
-@laws.acceleration.register(Foliage)
+@protocol.acceleration.register(Foliage)
 def _acceleration(effect, flow):
     total = 0.0
     for i in range(len(effect.bodies)):
@@ -44,7 +44,7 @@ def _acceleration(effect, flow):
     return scale(-total * length(flow.over_ground), flow.over_ground)
 
 
-@laws.longest_step.register(Foliage)
+@protocol.longest_step.register(Foliage)
 def _longest_step(effect, ground, flow, force, wanted):
     speed = length(flow.over_ground)
     way = inf

@@ -2,8 +2,8 @@
 """Gravity: the same everywhere, downward."""
 from typing import NamedTuple
 
-from ..material import STANDARD_GRAVITY
-from . import laws
+from ..properties.material import STANDARD_GRAVITY
+from . import protocol
 
 
 class Gravity(NamedTuple):
@@ -12,7 +12,7 @@ class Gravity(NamedTuple):
     g: float = STANDARD_GRAVITY
 
 
-@laws.gravity.register(Gravity)
+@protocol.gravity.register(Gravity)
 def _gravity(effect, position):
     return 0.0, 0.0, -effect.g
 

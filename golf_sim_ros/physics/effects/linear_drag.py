@@ -2,8 +2,8 @@
 """Air resistance proportional to speed, as in the report "Golf Without Friends" (KTH 2019)."""
 from typing import NamedTuple
 
-from ..vector import scale
-from . import laws
+from ..mechanics.vector import scale
+from . import protocol
 
 INSTEAD_OF = ('drag',)
 
@@ -18,7 +18,7 @@ class LinearDrag(NamedTuple):
     rate: float = 0.18
 
 
-@laws.acceleration.register(LinearDrag)
+@protocol.acceleration.register(LinearDrag)
 def _acceleration(effect, flow):
     return scale(-effect.rate, flow.velocity)
 

@@ -4,8 +4,8 @@ from math import sqrt
 from typing import NamedTuple
 
 from ..jit import kernel
-from ..vector import ZERO, cross, dot, scale
-from . import laws
+from ..mechanics.vector import ZERO, cross, dot, scale
+from . import protocol
 from .drag import NO_FLOW, dynamic_push, reynolds_number
 
 BEND = 0.7  # of `early_at`: within so small a spin ratio of its zero the lift hardly bends
@@ -53,7 +53,7 @@ def lift_per_ratio(law, ss, rr, flow=1.0):
     return flow * law.early * (sped - law.lost * slow) / sped / early + flow * law.late / late
 
 
-@laws.acceleration.register(Magnus)
+@protocol.acceleration.register(Magnus)
 def _acceleration(effect, flow):
     vv = dot(flow.velocity, flow.velocity)
     if vv < NO_FLOW or effect.push == 0.0:
@@ -64,13 +64,13 @@ def _acceleration(effect, flow):
     return scale(per_ratio, scale(effect.push, across))
 
 
-@laws.longest_step.register(Magnus)
+@protocol.longest_step.register(Magnus)
 def _longest_step(effect, ground, flow, force, wanted):
     if effect.push == 0.0:
         return wanted
     # Lift turns about where the velocity sweeps past the axis of spin.
     blunt = BEND * effect.law.early_at * flow.speed * flow.speed / effect.radius
-    return laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
+    return protocol.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
 
 
 def record(scene):

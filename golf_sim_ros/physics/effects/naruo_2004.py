@@ -2,10 +2,10 @@
 """Drag and lift after Naruo, Mizota and Shimozono (2004), in spin ratio alone."""
 from typing import NamedTuple
 
-from . import laws
+from ..mechanics.vector import ZERO
+from . import protocol
 from .drag import dynamic_push
 from .published import drag_and_lift, spin_ratio, turning_about
-from ..vector import ZERO
 
 MOST_RATIO = 1.13  # measured for S of 0.03 to this, Re of 7.1e4 to 1.25e5
 
@@ -22,7 +22,7 @@ class Naruo2004(NamedTuple):
     radius: float
 
 
-@laws.acceleration.register(Naruo2004)
+@protocol.acceleration.register(Naruo2004)
 def _acceleration(effect, flow):
     if flow.speed == 0.0:
         return ZERO
@@ -33,7 +33,7 @@ def _acceleration(effect, flow):
     return drag_and_lift(effect.push, flow, ratio, drag, lift)
 
 
-laws.longest_step.register(Naruo2004)(turning_about)
+protocol.longest_step.register(Naruo2004)(turning_about)
 
 
 def record(scene):

@@ -2,8 +2,8 @@
 """Soft turf as Penner (2002) published it: the contact normal's tilt grows without bound."""
 from typing import NamedTuple
 
-from ..vector import length, tangential
-from . import laws
+from ..mechanics.vector import length, tangential
+from . import protocol
 from .turf import ANGLE, SPEED, TILT, idle, steepness, tilted  # noqa: F401  (idle where turf is)
 
 INSTEAD_OF = ('turf',)
@@ -19,7 +19,7 @@ class Penner2002(NamedTuple):
     rate: float = TILT / (SPEED * ANGLE)
 
 
-@laws.contact_normal.register(Penner2002)
+@protocol.contact_normal.register(Penner2002)
 def _contact_normal(effect, normal, velocity, softness):
     across = tangential(velocity, normal)
     if softness == 0.0 or length(across) == 0.0:

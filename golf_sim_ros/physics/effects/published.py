@@ -3,8 +3,8 @@
 from math import sqrt
 
 from ..jit import kernel
-from ..vector import add, cross, length, scale
-from . import laws
+from ..mechanics.vector import add, cross, length, scale
+from . import protocol
 from .drag import CREEPING
 
 # The published laws give lift at no spin, where it has no direction, or let it set in infinitely steeply.
@@ -33,5 +33,5 @@ def drag_and_lift(push, flow, ratio, drag, lift):
 def turning_about(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook where drag or lift by a published law turns about."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
-    wanted = laws.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
-    return laws.passing(flow.velocity, force, CREEPING, wanted)
+    wanted = protocol.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
+    return protocol.passing(flow.velocity, force, CREEPING, wanted)

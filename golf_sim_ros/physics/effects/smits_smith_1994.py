@@ -3,10 +3,10 @@
 from math import pi, sin
 from typing import NamedTuple
 
-from . import laws
+from ..mechanics.vector import ZERO
+from . import protocol
 from .drag import dynamic_push, reynolds_number
 from .published import drag_and_lift, spin_ratio, turning_about
-from ..vector import ZERO
 
 INSTEAD_OF = ('drag', 'magnus')
 
@@ -23,7 +23,7 @@ class SmitsSmith1994(NamedTuple):
     reynolds: float
 
 
-@laws.acceleration.register(SmitsSmith1994)
+@protocol.acceleration.register(SmitsSmith1994)
 def _acceleration(effect, flow):
     if flow.speed == 0.0:
         return ZERO
@@ -33,7 +33,7 @@ def _acceleration(effect, flow):
     return drag_and_lift(effect.push, flow, ratio, drag, 0.54 * ratio ** 0.4)
 
 
-laws.longest_step.register(SmitsSmith1994)(turning_about)
+protocol.longest_step.register(SmitsSmith1994)(turning_about)
 
 
 def record(scene):

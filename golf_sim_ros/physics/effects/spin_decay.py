@@ -2,9 +2,9 @@
 """Spin decay: the air brakes the spin in proportion to the path flown."""
 from typing import NamedTuple
 
-from .. import air
-from ..vector import ZERO, scale
-from . import laws
+from ..mechanics.vector import ZERO, scale
+from ..properties import air
+from . import protocol
 
 # Smits and Smith, Science and Golf II (1994) 340-347: dw/dt = -2.0e-5 V w / r, in air of 1.18.
 SMITS_SMITH = 2.0e-5
@@ -17,7 +17,7 @@ class SpinDecay(NamedTuple):
     rate: float
 
 
-@laws.spin_rate.register(SpinDecay)
+@protocol.spin_rate.register(SpinDecay)
 def _spin_rate(effect, flow):
     return scale(-effect.rate * flow.speed, flow.spin) if effect.rate > 0.0 else ZERO
 

@@ -12,8 +12,8 @@ from math import acos, cos, exp, pi, sin
 from typing import NamedTuple
 
 from ..jit import kernel
-from ..vector import add, dot, length, scale, tangential
-from . import laws
+from ..mechanics.vector import add, dot, length, scale, tangential
+from . import protocol
 
 # Penner, Can. J. Phys. 80 (2002) 931-940: 15.4 degrees at 18.6 m/s and 44.4 degrees from the
 # vertical, proportional to both. As published it grows without bound (95 degrees for a skimmer
@@ -38,7 +38,7 @@ class Turf(NamedTuple):
     fade: float = FADE
 
 
-@laws.contact_normal.register(Turf)
+@protocol.contact_normal.register(Turf)
 def _contact_normal(effect, normal, velocity, softness):
     across = tangential(velocity, normal)
     if softness * effect.rate == 0.0 or length(across) == 0.0:

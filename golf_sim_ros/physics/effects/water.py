@@ -3,9 +3,9 @@
 from math import pi
 from typing import NamedTuple
 
-from ..splash import ADDED_MASS, WATER_DENSITY
-from ..vector import add, length, scale, sub
-from . import laws
+from ..mechanics.vector import add, length, scale, sub
+from ..response.water_impact import ADDED_MASS, WATER_DENSITY
+from . import protocol
 
 # Of a smooth sphere at Reynolds numbers of 1e3 to 2e5, those of a sinking golf ball being about 2e4
 # (Schlichting, Boundary-Layer Theory). That dimples hardly count there is an estimate.
@@ -24,7 +24,7 @@ class Water(NamedTuple):
     share: float
 
 
-@laws.under_water.register(Water)
+@protocol.under_water.register(Water)
 def _under_water(effect, weight, velocity):
     felt = scale(1.0 - effect.buoyancy, weight)
     drag = scale(-effect.push * length(velocity), velocity)

@@ -5,10 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..geometry.surfaces import ground_height
 from ..jit import kernel
-from ..ground.surface import ground_height
-from ..vector import ZERO, put, scale, vector
-from . import laws
+from ..mechanics.vector import ZERO, put, scale, vector
+from . import protocol
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
 STILL = -1
@@ -62,7 +62,7 @@ def from_ground(ground, position):
     return position[2] - ground_height(ground, position[0], position[1])
 
 
-@laws.air_velocity.register(Wind)
+@protocol.air_velocity.register(Wind)
 def _air_velocity(effect, ground, position):
     if effect.law == STILL:
         return ZERO
@@ -70,15 +70,15 @@ def _air_velocity(effect, ground, position):
     return scale(share(effect, above), vector(effect.velocity))
 
 
-@laws.longest_step.register(Wind)
+@protocol.longest_step.register(Wind)
 def _longest_step(effect, ground, flow, force, wanted):
     if effect.law == STILL or effect.law == 0 or vector(effect.velocity) == ZERO:
         return wanted
     bending = max(from_ground(ground, flow.position), 0.0) + (effect.parameter if effect.law == 1 else STEEP)
-    return min(max(GROWTH * bending / max(abs(flow.over_ground[2]), 1e-9), laws.BRIEF), wanted)
+    return min(max(GROWTH * bending / max(abs(flow.over_ground[2]), 1e-9), protocol.BRIEF), wanted)
 
 
-@laws.take_wind.register(Wind)
+@protocol.take_wind.register(Wind)
 def _take_wind(effect, wind):
     put(effect.velocity, wind)
 

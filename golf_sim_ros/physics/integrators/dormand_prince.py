@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..state import FLIGHT
+from ..state.ball import FLIGHT
 from . import rk4, runge_kutta
 
 TABLE = np.array([

@@ -2,9 +2,9 @@
 """Semi-implicit Euler: what most game engines do. A baseline, of order 1."""
 from typing import NamedTuple
 
-from ..path import lay
-from ..state import STEP
-from ..vector import along, put, scale, vector
+from ..mechanics.vector import along, put, scale, vector
+from ..state.ball import STEP
+from ..trajectory.segment import lay
 from . import runge_kutta
 
 

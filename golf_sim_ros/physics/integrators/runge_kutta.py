@@ -4,12 +4,12 @@ from math import inf, sqrt
 
 import numpy as np
 
-from ..jit import generic, kernel
 from ..effects import longest_step, pull, wind_at
-from ..motion import STILL, rates
-from ..path import lay
-from ..state import FLIGHT, STEP
-from ..vector import along, dot, length, put, sub, vector
+from ..jit import generic, kernel
+from ..mechanics.vector import along, dot, length, put, sub, vector
+from ..state.ball import FLIGHT, STEP
+from ..trajectory.equations_of_motion import STILL, rates
+from ..trajectory.segment import lay
 
 # What a wrong velocity or spin is worth in metres: it goes on for about a second, and 100 rad/s
 # bend a drive by about a metre in that time.

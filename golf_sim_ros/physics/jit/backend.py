@@ -2,8 +2,8 @@
 """From kernels to machine code, with numba: what each function is compiled to, once somebody asks."""
 import os
 
-from . import ENTRY, GENERICS, ROLES, SHARED, Unavailable, borrowed, cycles, literal_unroll, parameters
-from . import cache as cache_
+from . import (ENTRY, GENERICS, ROLES, SHARED, Unavailable, borrowed, cache as cache_, cycles, literal_unroll,
+               parameters)
 
 if os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0'):
     raise Unavailable('NUMBA_DISABLE_JIT is set')

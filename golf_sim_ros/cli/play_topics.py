@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All topics of a play, with their types and the QoS that is offered on them."""
+from typing import NamedTuple
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped, PoseStamped, Twist, TwistStamped, Vector3Stamped
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
+
+from ..nodes.publishers import EVENTS, LATCHED, POINTS, STREAM
+
+DEEP = 1000  # messages that may wait to be written
+# Topics whose publishers are anybody's: who asks for the least hears them all.
+ANYBODYS = ('wind', '/clock', '/diagnostics')
+
+
+class Topic(NamedTuple):
+    """A topic's name, message class, and the QoS usually offered on it."""
+
+    name: str
+    kind: type
+    offered: QoSProfile
+
+    @property
+    def type_name(self):
+        """As in 'std_msgs/msg/String'."""
+        package, *_, name = self.kind.__module__.split('.')[0], self.kind.__name__
+        return f'{package}/msg/{name}'
+
+    def requested(self):
+        """QoS for hearing it all."""
+        asked = QoSProfile(depth=DEEP, durability=self.offered.durability)
+        if self.name in ANYBODYS:
+            asked.reliability = ReliabilityPolicy.BEST_EFFORT
+            asked.durability = DurabilityPolicy.VOLATILE
+        return asked
+
+
+OF_SIM = (
+    Topic('shot', Twist, STREAM),
+    Topic('wind', Vector3Stamped, LATCHED),
+    Topic('collisions', String, EVENTS),
+    Topic('shot/result', String, EVENTS),
+    Topic('journal', String, EVENTS),
+    Topic('course/markers', MarkerArray, LATCHED),
+    Topic('play/markers', MarkerArray, STREAM),
+    Topic('/diagnostics', DiagnosticArray, STREAM),
+    Topic('/clock', Clock, STREAM),
+)
+OF_BALL = (
+    Topic('shot', Twist, STREAM),
+    Topic('place', PointStamped, STREAM),
+    Topic('pose', PoseStamped, STREAM),
+    Topic('twist', TwistStamped, STREAM),
+    Topic('contact', PointStamped, POINTS),
+)
+
+
+def of_ball(name):
+    """Topics of the ball `name`."""
+    return tuple(topic._replace(name=f'{name}/{topic.name}') for topic in OF_BALL)

@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A ROS node that hits one shot and hears how it ends."""
+import json
+from math import atan2, hypot
+import os
+import sys
+import time
+
+import rclpy
+from geometry_msgs.msg import PoseStamped, Twist
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
+
+from ..nodes.conversions import fill
+from ..nodes.older_rclpy import publisher_count
+from .reachability import Reach, SILENT
+
+# A result repeats the strike rounded to 1e-4.
+ROUNDING = 0.6e-4
+
+# A sim rejects a shot in its next step, unless it is paused.
+AT_ONCE = 1.0   # s
+
+# Volatile, so that no earlier shot's result is taken for ours.
+RESULT_QOS = QoSProfile(depth=100)
+# Of a sim that tells how many strikes it has received: what is told while the link is cut comes later.
+LASTING_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+NOTICE = 2.9  # s without a sim, after which a person is told
+MARKERS_QOS = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class NoShot(RuntimeError):
+    """There is no result, and the message says why."""
+
+
+class Player(Node):
+    """
+    A node beside a sim.
+
+    Parameters
+    ----------
+    ball : str or None
+        The ball to strike, or None for the ball in play.
+    namespace : str or None
+    timeout : float
+        For how long to look for a sim [s].
+    wait : float
+        For how long to wait for a sim that cannot be reached any more once it was struck [s].
+    """
+
+    def __init__(self, ball=None, namespace=None, timeout=5.0, wait=60.0):
+        super().__init__(f'shoot_{os.getpid()}', namespace=namespace, start_parameter_services=False,
+                         enable_rosout=False)
+        self.ball = ball
+        self.timeout, self.wait = timeout, wait
+        self.received, self.number, self.said = 0, None, ''
+        self._lasting, self._matched_at = [], None
+        self.results, self.position, self.markers = [], None, None
+        self.struck_at, self.first_position = time.monotonic(), None
+        self._shots = self.create_publisher(Twist, f'{ball}/shot' if ball else 'shot', 10)
+        self._results = self.create_subscription(String, 'shot/result', self._take_result, RESULT_QOS)
+        self.reach = Reach(self)
+        self._poses = self.create_subscription(PoseStamped, f'{ball or "ball"}/pose', self._take_pose, 10)
+        # Last: subscriptions are announced in order, so the sim that sends us its course has already
+        # found the one for results.
+        self.create_subscription(MarkerArray, 'course/markers', self._take_markers, MARKERS_QOS)
+
+    @property
+    def shot_topic(self):
+        """Name of the topic to which the shot goes, with namespace and remappings."""
+        return self._shots.topic_name
+
+    def find_sim(self):
+        """
+        Wait until a sim would hear a shot and its result would be heard.
+
+        Raises
+        ------
+        NoShot
+            If there is none.
+        """
+        if not self._wait(self._is_reachable, self.timeout, self._notice_absence):
+            raise NoShot(f'no sim answers on {self.shot_topic} within {self.timeout:g} s')
+        if not self._wait(lambda: self.markers is not None, self.timeout):
+            raise NoShot(f'a sim listens on {self.shot_topic}, but shows no course within {self.timeout:g} s')
+
+    def _is_reachable(self):
+        if not self._shots.get_subscription_count():
+            return False
+        return self.reach.is_fresh() if self.reach.is_offered() else not self._hopes()
+
+    def _hopes(self):
+        """Return whether it is too early to say that a sim tells no heartbeat."""
+        self._matched_at = self._matched_at or time.monotonic()
+        return time.monotonic() < self._matched_at + AT_ONCE
+
+    def _notice_absence(self, since):
+        absent = not self._shots.get_subscription_count() or self.reach.is_offered()
+        if absent and time.monotonic() > since + NOTICE:
+            self._say(f'no sim answers on {self.shot_topic} yet')
+
+    def _say(self, what):
+        """Tell a person, once."""
+        if what != self.said:
+            self.said = what
+            print(f'shoot: {what}', file=sys.stderr, flush=True)
+
+    def way_to_hole(self):
+        """
+        Return direction and distance from the ball to the hole.
+
+        Returns
+        -------
+        heading : float
+            Angle from x towards y [rad].
+        distance : float
+            Horizontal distance [m].
+
+        Raises
+        ------
+        NoShot
+            If there is no hole or the ball cannot be found.
+        """
+        self.find_sim()
+        holes = [marker.pose.position for marker in self.markers if (marker.ns, marker.id) == ('hole', 0)]
+        if not holes:
+            raise NoShot('this course has no hole to aim at')
+        if not self._wait(lambda: self.position is not None, self.timeout):
+            raise NoShot(f'no ball on {self._poses.topic_name}; name the one to strike with --ball')
+        x, y = holes[0].x - self.position.x, holes[0].y - self.position.y
+        return atan2(y, x), hypot(x, y)
+
+    def strike(self, velocity, spin):
+        """
+        Strike the ball and wait until the shot has ended.
+
+        Parameters
+        ----------
+        velocity, spin : tuple of 3 float
+
+        Returns
+        -------
+        dict
+            What `shot/result` says.
+
+        Raises
+        ------
+        NoShot
+            If there is no sim, or it rejects the shot, aborts it, or goes away.
+        """
+        self.find_sim()
+        self.results.clear()
+        beat = self._listen_for_good(velocity, spin) if self.reach.is_offered() else None
+        self.struck_at, self.first_position = time.monotonic(), None
+        self._shots.publish(twist(velocity, spin))
+        while not self._wait(lambda: self._own_result(velocity, spin), 0.5):
+            if beat:
+                self._look_after(beat)
+            elif not publisher_count(self, self._results):
+                raise NoShot('the sim went away before the shot ended')
+        result = self._own_result(velocity, spin)
+        if result['status'] in ('rejected', 'aborted', 'failed'):
+            raise NoShot(': '.join(filter(None, (result['status'], result['reason']))))
+        return result
+
+    def _listen_for_good(self, velocity, spin):
+        """Hear also what is told while the link is cut; return the last heartbeat."""
+        beat = self.reach.last
+        self.received = beat['shots']
+        self._lasting = [
+            self.create_subscription(String, 'shot/result', self._take_result, LASTING_QOS),
+            self.create_subscription(String, 'journal', lambda message: self._take_entry(
+                message, list(velocity), list(spin)), LASTING_QOS)]
+        return beat
+
+    def _take_entry(self, message, velocity, spin):
+        entry = json.loads(message.data)
+        if entry['kind'] != 'strike' or entry['shot'] <= self.received or self.number is not None:
+            return
+        if (entry['velocity'], entry['spin']) == (velocity, spin) and self.ball in (None, entry['ball']):
+            self.number = entry['shot']
+
+    def _look_after(self, struck):
+        """Tell a person where the sim is; raise NoShot where it was lost, or has not taken the strike."""
+        now = self.reach.last
+        if now['session'] != struck['session']:
+            raise NoShot('the sim was started anew: the shot is lost')
+        if self.reach.silence() > SILENT + self.wait:
+            raise NoShot('the sim went away before the shot ended, '
+                         f'and was not back within {self.wait:g} s')
+        if self.reach.is_lost():
+            self._say(f'the sim cannot be reached; waiting for it, {self.wait:g} s at most')
+        elif now['paused']:
+            self._say('the sim is paused; waiting until it goes on')
+        elif self.said:
+            self._say('the sim plays on')
+        if self.number is None and self.reach.has_had_time(self.struck_at):
+            raise NoShot('nobody took the strike: it was lost on its way; strike again')
+
+    def _own_result(self, velocity, spin):
+        return next((result for result in self.results if self._is_own(result, velocity, spin)), None)
+
+    def _is_own(self, result, velocity, spin):
+        if self.ball and result['ball'] != self.ball or result['shot'] <= self.received:
+            return False
+        if self.number is not None:
+            return result['shot'] == self.number
+        told, struck = [*result['velocity'], *result['spin']], [*velocity, *spin]
+        return all(a is not None and abs(a - b) <= ROUNDING for a, b in zip(told, struck))
+
+    def _wait(self, condition, seconds, meanwhile=lambda since: None):
+        """Return whether `condition()` became true within so many seconds."""
+        since = time.monotonic()
+        while not condition():
+            if time.monotonic() > since + seconds:
+                return False
+            meanwhile(since)
+            rclpy.spin_once(self, timeout_sec=0.05)
+        return True
+
+    def _take_result(self, message):
+        result = json.loads(message.data)
+        if not (result['status'] == 'rejected' and self._is_under_way()):
+            self.results.append(result)
+
+    def _is_under_way(self):
+        """Return whether our shot is played, so that a rejection is that of another just like it."""
+        late = time.monotonic() > self.struck_at + AT_ONCE
+        return late and self.position != self.first_position
+
+    def _take_pose(self, message):
+        self.position = message.pose.position
+        self.first_position = self.first_position or self.position
+
+    def _take_markers(self, message):
+        self.markers = message.markers
+
+
+def twist(velocity, spin):
+    """Return the message that strikes a ball with this velocity and spin."""
+    message = Twist()
+    fill(message.linear, velocity)
+    fill(message.angular, spin)
+    return message

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Draw a recorded play: from the side, from above, over time, and in numbers. Needs no ROS."""
+import argparse
+import sys
+
+from ..course import CourseError, load_course
+from ..optional_packages import how_to_get
+from ..recording.bag import BagError, read_bag
+from ..recording.replay import course_of
+from .pipes import in_pipes
+
+NEEDED = f'plot_play needs matplotlib: {how_to_get("plot", "matplotlib")}'
+
+
+class NoPicture(RuntimeError):
+    """There is nothing to draw, and one line says why."""
+
+
+@in_pipes
+def main(args=None):
+    """Draw the play of a bag; return the exit code."""
+    options = parser().parse_args(args)
+    try:
+        from .. import drawing
+    except ImportError as error:
+        return failed(f'{NEEDED} ({error})')
+    try:
+        play, shots = chosen(read_bag(options.bag), options, drawing.recorded)
+        drawing.draw(options.output, shots, course_under(play, options.course), options.title, options.dpi)
+    except (BagError, CourseError, NoPicture, OSError, ValueError) as error:
+        return failed(error)
+    print(f'{options.output}: {len(shots)} shot{"s" * (len(shots) > 1)}')
+    return 0
+
+
+def parser():
+    """Reader of the command line."""
+    reader = argparse.ArgumentParser(prog='plot_play', description=__doc__)
+    reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
+    reader.add_argument('-o', '--output', default='play.png', metavar='FILE',
+                        help='picture to write: .png, .svg or .pdf (%(default)s)')
+    reader.add_argument('--shots', type=int, nargs='+', metavar='N', help='only these, by their numbers')
+    reader.add_argument('--namespace', help='sim to draw, where the bag holds several')
+    reader.add_argument('--course', help='name or path of the course, where the bag does not say or it moved')
+    reader.add_argument('--title', default='', help="instead of the course's name")
+    reader.add_argument('--dpi', type=dots, default=150, help='pixels an inch; the picture is 12 inches wide '
+                        '(%(default)s)')
+    return reader
+
+
+def dots(text):
+    """Pixels an inch, from the command line."""
+    if not 20 <= int(text) <= 1200:
+        raise argparse.ArgumentTypeError(f'{text} is not 20 to 1200')
+    return int(text)
+
+
+def chosen(plays, options, recorded):
+    """The first of the recorded `plays` that has shots to be drawn, and these."""
+    if options.namespace is not None:
+        plays = [play for play in plays if play.namespace.strip('/') == options.namespace.strip('/')]
+    found = [(play, wanted(recorded(play), options.shots)) for play in plays]
+    found = [(play, shots) for play, shots in found if shots]
+    if not found:
+        raise NoPicture(f'{options.bag}: no such shot was recorded with its path and end')
+    if len(found) > 1:
+        others = ', '.join(f'{play.namespace or "/"}: {len(shots)} shots' for play, shots in found[1:])
+        note(f'{found[0][0].namespace or "/"} is drawn; the bag also holds {others}')
+    return found[0]
+
+
+def wanted(shots, numbers):
+    """Those of `shots` with one of `numbers`; all, if there are no numbers."""
+    return [shot for shot in shots if not numbers or shot.result.shot in numbers]
+
+
+def course_under(play, name):
+    """Course that was played on, or None where the bag does not say."""
+    if play.config is None:
+        if name is None:
+            note('the bag does not say on which course this was played; --course does')
+        return load_course(name) if name else None
+    course = course_of(play.config, name)
+    if course.digest != play.config['course']['digest']:
+        note(f'{course.path} has changed since the play')
+    return course
+
+
+def note(text):
+    """Tell something that the picture does not."""
+    print(f'plot_play: {text}', file=sys.stderr)
+
+
+def failed(reason):
+    """Say in one line why there is no picture; return the exit code."""
+    note(' '.join(str(reason).split()))
+    return 1
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Record a play to a rosbag2 bag, where `ros2 bag record` is not installed."""
+import argparse
+from datetime import datetime
+from functools import partial
+import sys
+import time
+
+import rclpy
+from rclpy.exceptions import NameValidationException
+from rclpy.node import Node
+from rclpy.serialization import deserialize_message
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+from ..nodes.environment import complete_environment, unsafe
+from ..nodes.lifecycle import Ending, EventsExecutor
+from ..recording.bag_writer import BagWriter, CannotRecord
+from ..recording.journal import JournalError, opened
+from .pipes import in_pipes, say
+from .play_topics import OF_SIM, of_ball
+
+STORAGES = ('mcap', 'sqlite3')
+LINGER = 0.3  # s after the signal, for what is still on its way
+ONLY_WHEN_HEARD = ('/clock',)  # an empty topic of this name would disturb who plays the bag back
+
+
+class Recorder(Node):
+    """Writes all that is told on a sim's topics, as it comes.
+
+    Parameters
+    ----------
+    bag : BagWriter
+    namespace : str or None
+        Of the sim.
+    balls : sequence of str
+        Their topics are followed at once; those of other balls as soon as the sim's journal names them.
+    """
+
+    def __init__(self, bag, namespace=None, balls=()):
+        super().__init__('record_play', namespace=namespace, start_parameter_services=False,
+                         enable_rosout=False)
+        self.bag, self.topics, self.balls, self.named = bag, {}, [], list(balls)
+        for topic in OF_SIM:
+            self.follow(topic)
+
+    def follow(self, topic):
+        """Record a topic from now on."""
+        write = partial(self.on_message, topic)
+        subscription = self.create_subscription(topic.kind, topic.name, write, topic.requested(), raw=True)
+        self.topics[subscription.topic_name] = topic, subscription
+
+    def follow_named(self):
+        """Record the balls that were named since the last call, and say so."""
+        new = [ball for ball in self.named if ball not in self.balls]
+        for topic in [topic for ball in new for topic in of_ball(ball)]:
+            self.follow(topic)
+        self.balls += new
+        if new:
+            namespace = self.get_namespace()
+            say(f'recording {", ".join(new)} of {namespace} to {self.bag.path}; Ctrl-C ends it')
+
+    def on_message(self, topic, data):
+        """Write one message; the journal also tells which balls there are."""
+        now = time.time_ns()
+        name = self.resolve_topic_name(topic.name)
+        self.begin(name, topic)
+        self.bag.write(name, now, data)
+        if topic.name == 'journal':
+            self.named += balls_in(deserialize_message(data, topic.kind).data)
+
+    def begin(self, name, topic):
+        """Begin a topic in the bag with the QoS that is offered on it now, or usually."""
+        if name not in self.bag.connections:
+            offers = [info.qos_profile for info in self.get_publishers_info_by_topic(name)]
+            profiles = {(offer.reliability.name, offer.durability.name, topic.offered.depth)
+                        for offer in offers or [topic.offered]}
+            self.bag.add(name, topic.type_name, sorted(profiles))
+
+    def complete(self):
+        """Begin those topics that nobody has written to, and close the bag."""
+        for name, (topic, _) in self.topics.items():
+            if name not in ONLY_WHEN_HEARD:
+                self.begin(name, topic)
+        self.bag.close()
+
+
+def balls_in(text):
+    """Names of the balls, if `text` is the entry of a journal that tells them."""
+    try:
+        return opened(text).get('parameters', {}).get('balls', [])
+    except JournalError:
+        return []
+
+
+def record(recorder, ending):
+    """Write what comes until the `ending` is told, and a little longer."""
+    executor = EventsExecutor()
+    executor.add_node(recorder)
+    until = None
+    while rclpy.ok() and (until is None or time.monotonic() < until):
+        recorder.follow_named()
+        executor.spin_once(timeout_sec=0.05)
+        if ending.told and until is None:
+            until = time.monotonic() + LINGER
+    executor.remove_node(recorder)
+
+
+def parser():
+    """Reader of the command line."""
+    reader = argparse.ArgumentParser(prog='record_play', description=__doc__)
+    reader.add_argument('-o', '--output', default=f'{datetime.now():play_%Y_%m_%d_%H_%M_%S}',
+                        help='folder to make; default: play_ with date and time')
+    reader.add_argument('--balls', nargs='+', default=[], metavar='NAME',
+                        help='balls to follow from the start; others follow once the sim names them')
+    reader.add_argument('--namespace', help='namespace of the sim')
+    reader.add_argument('--storage', choices=STORAGES, default='mcap')
+    return reader
+
+
+@in_pipes
+def main(args=None):
+    """Record until told to stop; return the exit code."""
+    args = sys.argv if args is None else args
+    options = parser().parse_args(remove_ros_args(args)[1:])
+    ending = Ending()
+    ending.be_patient()
+    complete_environment()
+    try:
+        rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
+        return recorded(options, ending)
+    except (CannotRecord, NameValidationException, OSError, RuntimeError) as error:
+        print(f'record_play: {unsafe() or " ".join(str(error).split())}', file=sys.stderr)
+        return 1
+    finally:
+        rclpy.try_shutdown()
+
+
+def recorded(options, ending):
+    """Record one bag; return the exit code."""
+    bag = BagWriter(options.output, options.storage)
+    recorder = Recorder(bag, options.namespace, options.balls)
+    say(f'waiting for a sim in {recorder.get_namespace()}')
+    try:
+        record(recorder, ending)
+    finally:
+        recorder.complete()
+        recorder.destroy_node()
+    say(f'{bag.count} messages in {bag.path}')
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Run recorded play again, without ROS: is it the same, and what would another accuracy change?"""
+import argparse
+from math import dist
+import sys
+
+from .. import __version__
+from ..physics import ACCURACY
+from ..physics.jit.build import READY
+from ..recording.bag import BagError, read_bag
+from ..recording.journal import made_with
+from ..recording.replay import CLOSE, difference, engine_of, rerun, shots, tick_of, timed, world_of
+from .pipes import in_pipes
+
+EPILOG = """Each shot is run by the engine that played it: the same bits. Where the compiled engine is missing
+here, plain Python takes its place, and has to agree to 1e-9. The exit code is 0 when every shot is the same,
+1 when one is not or the bag cannot be used, 2 for wrong arguments."""
+SHORT_WAIT = 5.0  # s: what is compiled is loaded by then
+
+
+@in_pipes
+def main(args=None):
+    """Run a bag's play again; return the exit code."""
+    options = parser().parse_args(args)
+    try:
+        plays = [play for play in read_bag(options.bag) if shots(play)]
+        if not plays:
+            raise BagError(f'{options.bag}: no strike is in a journal: it cannot be run again')
+        return 0 if all([resimulated(play, options) for play in plays]) else 1
+    except BagError as error:
+        print(f'resimulate: {" ".join(str(error).split())}', file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+
+
+def parser():
+    """Reader of the command line."""
+    reader = argparse.ArgumentParser(prog='resimulate', description=__doc__, epilog=EPILOG)
+    reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
+    reader.add_argument('--accuracy', choices=list(ACCURACY), help='also play every shot at this accuracy')
+    reader.add_argument('--course', help='name or path of the course, if it is not where it was')
+    return reader
+
+
+def resimulated(play, options):
+    """Run one recorded sim again and tell of every shot; whether all are the same."""
+    world = world_of(play, options.course)
+    introduce(play, world)
+    found, engines = shots(play), engines_here(play, world)
+    same = [retold(play, world, shot, options.accuracy, engines) for shot in found]
+    alike = 'identical' if {engine_of(play, shot) for shot in found} <= engines else f'the same to {CLOSE:g}'
+    print(f'{sum(same)} of {len(found)} {alike}', flush=True)
+    return all(same)
+
+
+def introduce(play, world):
+    """Tell what is played again, and on what if that is not what it was recorded on."""
+    config = play.config
+    print(f'{play.namespace or "/"}: {world.course.name}, {config["parameters"]["rate"]:g} ticks a second, '
+          f'accuracy {config["parameters"]["accuracy"]}')
+    then = {'golf_sim_ros': config['version'], **config['made_with']}
+    now = {'golf_sim_ros': __version__, **made_with()}
+    others = [f'{name} {then.get(name)} then, {now[name]} now' for name in now if then.get(name) != now[name]]
+    if others:
+        print(f'note: {"; ".join(others)}: the same bits are promised only where these are the same')
+
+
+def engines_here(play, world):
+    """Engines that there are here, of those that played; says so where one is missing."""
+    if 'compiled' not in {engine_of(play, shot) for shot in shots(play)}:
+        return {'python'}
+    build = world.build(urgent=True)
+    if not build.wait(SHORT_WAIT):
+        print('compiling the physics, which takes up to a minute, once a machine', flush=True)
+        build.wait()
+    if build.state == READY:
+        return {'python', 'compiled'}
+    print(f'note: recorded with the compiled engine, run again in plain Python, which agrees to '
+          f'{CLOSE:g}: {build.reason}', flush=True)
+    return {'python'}
+
+
+def retold(play, world, shot, accuracy, engines):
+    """Tell of one shot, run by its engine if that is one of `engines`; whether it is the same."""
+    name = f'shot {shot.strike["shot"]} ({shot.strike["ball"]})'
+    if shot.gap:
+        print(f'{name}: journal entries {shot.gap} are missing: it cannot be run again')
+        return False
+    engine = engine_of(play, shot)
+    world.engine = engine if engine in engines else 'python'
+    again = rerun(world, shot, tick_of(play))
+    found = difference(play, shot, again, exact=world.engine == engine)
+    if found:
+        after = (found.tick - shot.strike['tick']) * tick_of(play)
+        print(f'{name}: differs first at tick {found.tick}, {after:g} s after the strike, in {found.field}: '
+              f'{found.recorded} recorded, {found.again} again')
+    else:
+        alike = 'identical' if world.engine == engine else f'the same to {CLOSE:g} in plain Python'
+        print(f'{name}: {alike}' + ('' if shot.rest else ', as far as it was recorded'), flush=True)
+    if accuracy and again.result:
+        print('  ' + compared(world, shot, tick_of(play), accuracy), flush=True)
+    return found is None
+
+
+def compared(world, shot, tick, accuracy):
+    """What another accuracy does to a shot, in a line."""
+    rest, time = timed(world, shot, tick)
+    other, faster = timed(world, shot, tick, accuracy)
+    times = f'{1e3 * time:.3f} ms at {shot.strike["accuracy"]}, {1e3 * faster:.3f} ms at {accuracy}'
+    if rest is None or other is None:
+        return f'ended by a reset; {times}'
+    return f'rest moves by {dist(rest, other):.3g} m; {times}'
+
+
+if __name__ == '__main__':
+    sys.exit(main())

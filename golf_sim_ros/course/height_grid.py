@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A grid of heights as a file has it, and the arrays of NumPy that are the plainest of them."""
+from io import BytesIO
+from math import prod
+from typing import NamedTuple, Optional
+import warnings
+
+import numpy as np
+
+from .schema import CourseError, shown
+
+UNITS = {'metres': 1.0, 'feet': 0.3048, 'us_feet': 1200.0 / 3937.0}  # m; the last is of US state planes
+HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
+
+
+class Grid(NamedTuple):
+    """Heights as they are in a file, rows from south to north.
+
+    ``heights`` (ny, nx) float; ``missing`` (ny, nx) bool: what the file says is none. ``corner``: x, y of the
+    first height of the first row, and ``spacing``, in the file's unit; None where the file does not say.
+    ``unit``, ``height_unit``: names in `UNITS`, or None.
+    """
+
+    heights: np.ndarray
+    missing: np.ndarray
+    corner: Optional[tuple] = None
+    spacing: Optional[float] = None
+    unit: Optional[str] = None
+    height_unit: Optional[str] = None
+
+
+def npy(raw, unit):
+    """`Grid` of a .npy file."""
+    if not raw.startswith(b'\x93NUMPY'):
+        raise CourseError('is no .npy file')
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter('ignore')
+            check_size(raw)
+            found = np.load(BytesIO(raw), allow_pickle=False)
+    except (CourseError, MemoryError):
+        raise
+    except Exception as error:  # numpy has many ways of saying that a file is broken
+        reason = ' '.join(str(error).split())
+        raise CourseError(f'is no .npy file that can be read: {reason}') from None
+    if not isinstance(found, np.ndarray) or found.dtype.kind not in 'fiu':
+        raise CourseError(f'must hold numbers, not {getattr(found, "dtype", type(found).__name__)}')
+    return Grid(found.astype(float), np.zeros(found.shape, bool))
+
+
+def check_size(raw):
+    """Refuse an array that tells of more than its file holds: numpy would make room for it first."""
+    file = BytesIO(raw)
+    version = np.lib.format.read_magic(file)
+    if version in HEADERS:  # the others are of tables with names, and no heights
+        shape, _, kind = HEADERS[version](file)
+        if prod(map(int, shape)) * kind.itemsize > len(raw):
+            raise CourseError(f'is no .npy file to be read: it tells of {shown(shape)} numbers, and ends')

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Materials: the shipped ones, one YAML file each, and those that a course adds or changes."""
+from ..physics.geometry.cup import CUP
+from ..physics.geometry.solid import FLAGSTICK
+from ..physics.properties.material import Material, PENNER, Restitution, rolling_resistance_of_stimp
+from .package_files import share
+from .schema import CourseError, below, fields, mapping, number, record, tagged, text, unknown, vector
+from .yaml_file import read_yaml
+
+LAWS = {
+    'penner': lambda value, key: fields({})(value, key) or PENNER,
+    'quadratic': record(Restitution, {'e0': number(0, 1), 'e1': number(-10, 10), 'e2': number(-10, 10),
+                                      'floor': number(0, 1)}, needed=('e0',)),
+}
+
+
+def restitution(value, key):
+    """A number, or a law of the approach speed; returns `Restitution`."""
+    if isinstance(value, dict):
+        return tagged('law', LAWS)(value, key)
+    return Restitution(number(0, 1)(value, key))
+
+
+FIELDS = {
+    'restitution': restitution,
+    'tangential_restitution': number(-1, 1),
+    'static_friction': number(0),
+    'dynamic_friction': number(0),
+    'rolling_resistance': number(0),
+    'stimp': number(0.1, 100),
+    'pivot_friction': number(0),
+    'softness': number(0, 100),
+    'color': vector(3, 0, 1),
+    'drag': number(0, 1000),
+}
+
+
+def entry(value, key, checkers=FIELDS):
+    """What a file says of one material; returns a dict of `Material`'s fields, and perhaps 'like'."""
+    content = fields(checkers)(value, key)
+    if 'stimp' in content:
+        if 'rolling_resistance' in content:
+            raise CourseError(f'{key or "material"} has both stimp and rolling_resistance; one is allowed')
+        content['rolling_resistance'] = rolling_resistance_of_stimp(content.pop('stimp'))
+    return content
+
+
+def shipped():
+    """Entries of the shipped materials by name, cup and flagstick too, and the bytes of their files."""
+    entries = {made.name: {name: value for name, value in made._asdict().items() if name != 'name'}
+               for made in (CUP, FLAGSTICK)}
+    sources = {}
+    for path in sorted(share('config', 'materials').glob('*.yaml')):
+        sources[path.stem], content = read_yaml(path)
+        try:
+            entries[path.stem] = entry(content, '')
+        except CourseError as error:
+            raise CourseError(f'{path}: {error}') from None
+    return entries, sources
+
+
+def materials(value, base):
+    """`Material` records by name: those of `base` and a course's own.
+
+    Parameters
+    ----------
+    value : dict
+        The section ``materials`` of a course file.
+    base : dict of str to dict
+        The shipped entries.
+    """
+    own = {text(name, 'materials: name'): entry(content, f'materials.{name}', {**FIELDS, 'like': text})
+           for name, content in mapping(value, 'materials').items()}
+    filled = {}
+    for name in own:
+        for step in reversed(_way_to_known(name, own, base, filled)):
+            content = dict(own[step])
+            like = content.pop('like', step)
+            above = base.get(step, {}) if like == step else filled[like] if like in filled else base[like]
+            filled[step] = {**above, **content}
+    return {name: Material(name=name, **entry) for name, entry in {**base, **filled}.items()}
+
+
+def _way_to_known(name, own, base, filled):
+    """Names of materials from `name` on, each like the next one, up to what is `filled` or shipped.
+
+    A material is like the shipped one of its name where it does not say otherwise.
+    """
+    way = {name: None}  # in order, and found at once
+    while True:
+        like = own[name].get('like')
+        key = below(f'materials.{name}', 'like')
+        if like is None or like == name and name in base:
+            return list(way)
+        if like not in own and like not in base:
+            raise unknown(key, like, {*own, *base} - {name})
+        if like in way:
+            raise CourseError(f'{key} {like!r} leads back to itself: {" -> ".join((*way, like))}; '
+                              'a material may not be like itself')
+        if like in filled or like not in own:
+            return list(way)
+        name = like
+        way[name] = None

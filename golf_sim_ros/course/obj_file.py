@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Vertices and faces of OBJ files, in all the dialects that programs write."""
+import numpy as np
+
+from .input_file import decoded
+from .polygon_faces import triangles_of
+from .schema import CourseError, shown
+
+
+def obj(raw):
+    """Vertices, faces and notes of an OBJ file; lines that are neither are not looked at.
+
+    Lines may be indented, have tabs, comments behind them, and end in any way; vertices may have colours.
+    """
+    vertices, polygons, lines = [], [], []
+    for number, line in whole_lines(decoded(raw)):
+        words = line.split()
+        if not words or words[0] not in ('v', 'f'):
+            continue
+        try:
+            if words[0] == 'v':
+                vertices.append(vertex(words))
+            else:
+                polygons.append(face(words, len(vertices)))
+                lines.append(number)
+        except ValueError:
+            raise CourseError(
+                f'is no OBJ file that can be read: line {number} {shown(line.strip())}: a vertex '
+                'is three numbers or more, a face three whole ones or more') from None
+    vertices = np.array(vertices, float).reshape(-1, 3)
+    check(polygons, lines, len(vertices))
+    faces, crossed = triangles_of(polygons, vertices)
+    return vertices, faces, [
+        f'the face in line {lines[i]} crosses itself and was left out' for i in crossed[:3]
+    ]
+
+
+def whole_lines(text):
+    """Number of each line, and the line without comment: with those that follow where a backslash ends it."""
+    begun, first = '', 0
+    for number, line in enumerate(text.splitlines(), 1):
+        first, line = first or number, line.partition('#')[0].rstrip()
+        if line.endswith('\\'):
+            begun += line[:-1] + ' '
+            continue
+        yield first, begun + line
+        begun, first = '', 0
+    if begun:
+        yield first, begun
+
+
+def vertex(words):
+    """x, y, z; what comes after them, a weight or a colour, does not count."""
+    x, y, z = words[1:4]
+    return float(x), float(y), float(z)
+
+
+def face(words, so_far):
+    """Numbers of vertices from 0 on; a corner is ``vertex/texture/normal``, and negative ones count back."""
+    corners = [int(word.partition('/')[0]) for word in words[1:]]
+    if len(corners) < 3:
+        raise ValueError('two corners')
+    return [corner - 1 if corner > 0 else so_far + corner if corner < 0 else -1 for corner in corners]
+
+
+def check(polygons, lines, vertices):
+    """Refuse a face with a vertex that there is not."""
+    for polygon, line in zip(polygons, lines):
+        if not 0 <= min(polygon) <= max(polygon) < vertices:
+            raise CourseError(f'line {line}: a face names a vertex that is none of the {vertices} there are')

@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where the files that come with the package are: courses, materials, parameters."""
+
+import os
+from pathlib import Path
+import sys
+
+PACKAGE = 'golf_sim_ros'
+
+
+def share(*parts):
+    """Path of a file or folder that comes with the package, as in ``share('config', 'courses')``.
+
+    Works the same in a source checkout (``PYTHONPATH``, ``pip install -e``, ``colcon build
+    --symlink-install``) and after ``pip install`` or ``colcon build``.
+
+    Parameters
+    ----------
+    *parts : str
+        Path below the share folder; with none, the folder itself.
+
+    Returns
+    -------
+    pathlib.Path
+        The path; whether anything is there is the caller's question.
+
+    Raises
+    ------
+    FileNotFoundError
+        When the files of the package are nowhere, which means it was copied and not installed.
+    """
+    for root in _candidates():
+        if (root / 'package.xml').is_file() and (root / 'config').is_dir():
+            return root.joinpath(*parts)
+    places = ', '.join(str(root) for root in _candidates())
+    raise FileNotFoundError(f'the files that come with {PACKAGE} are in none of: {places}')
+
+
+def _candidates():
+    """Folders that may hold package.xml and config/, the ones nearest to this very file first."""
+    here = Path(__file__).resolve()
+    yield here.parents[2]                             # source checkout
+    sourced = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
+    for prefix in [*_prefixes_above(here), sys.prefix, *sourced]:
+        if prefix:
+            yield Path(prefix) / 'share' / PACKAGE
+
+
+def _prefixes_above(file):
+    """PREFIX of PREFIX/lib/pythonX.Y/site-packages/golf_sim_ros/..., whichever Python that is."""
+    return [folder.parent for folder in file.parents if folder.name in ('lib', 'lib64')]

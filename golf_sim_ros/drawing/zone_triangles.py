@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Triangles of the ground in the colours of its zones, for display."""
+from math import ceil, sqrt
+
+import numpy as np
+
+from ..physics.geometry.zone import zones_of
+from .polygon_triangles import sides, triangles
+
+FEW = 20  # zones on a tile; fewer on all of a surface are drawn at once
+MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
+
+
+def flat(outline, cuts, material, zones):
+    """Pairs of a material and its triangles of (x, y): `outline` without `cuts`, painted with `zones`."""
+    zones = zones_of(zones)
+    near = Boxes([zone.polygon for zone in zones])
+    base = []
+    for tile in tiles(outline, len(zones)):
+        base += triangles(tile, cuts, outline, [(zones[i].polygon, zones[i].cut) for i in near.to(tile)])
+    found = [(material, base)]
+    for number, (paint, polygon, own) in enumerate(zones):
+        later = [(zones[i].polygon, zones[i].cut) for i in near.to(polygon, number + 1)]
+        hiding = [cut for cut in (*cuts, *own) if boxes_meet(cut, polygon)]
+        found.append((paint, triangles(polygon, hiding, outline, later)))
+    return found
+
+
+def tiles(outline, count):
+    """Rectangles that cover `outline`, so small that of `count` polygons over it a few lie in each."""
+    n = ceil(sqrt(count / FEW))
+    if n <= 1:
+        return [outline]
+    x, y = (np.linspace(low, high, n + 1).tolist()
+            for low, high in zip(np.min(outline, 0), np.max(outline, 0)))
+    return [((x[i], y[k]), (x[i + 1], y[k]), (x[i + 1], y[k + 1]), (x[i], y[k + 1]))
+            for i in range(n) for k in range(n)]
+
+
+class Boxes:
+    """Upright rectangles around `polygons`."""
+
+    def __init__(self, polygons):
+        self.low = np.array([np.min(polygon, 0) for polygon in polygons]).reshape(-1, 2)
+        self.high = np.array([np.max(polygon, 0) for polygon in polygons]).reshape(-1, 2)
+
+    def to(self, polygon, first=0):
+        """Numbers, from `first` on, of those that meet the rectangle around `polygon`."""
+        low, high = np.min(polygon, 0), np.max(polygon, 0)
+        near = (low <= self.high[first:]).all(1) & (self.low[first:] <= high).all(1)
+        return (first + np.flatnonzero(near)).tolist()
+
+
+def boxes_meet(one, other):
+    """Whether the upright rectangles around two polygons meet."""
+    (low, high), (other_low, other_high) = ((np.min(p, 0), np.max(p, 0)) for p in (one, other))
+    return bool((low <= other_high).all() and (other_low <= high).all())
+
+
+def curved(corners, material, zones):
+    """Pairs of a material and its triangles: each of `corners`, (n, 3, 3), is painted as its middle."""
+    corners = np.asarray(corners, float)
+    paint = last_zone(zones, *corners[..., :2].mean(1).T)
+    return [(zones[number][0] if number >= 0 else material, corners[paint == number])
+            for number in np.unique(paint)]
+
+
+def last_zone(zones, x, y):
+    """Number of the last of `zones` that holds each place; -1 where there is none."""
+    numbers = np.full(len(x), -1)
+    for number, zone in enumerate(zones_of(zones)):
+        (left, front), (right, back) = np.min(zone.polygon, 0), np.max(zone.polygon, 0)
+        near = np.flatnonzero((left <= x) & (x <= right) & (front <= y) & (y <= back))
+        numbers[near[in_region(zone.polygon, zone.cut, x[near], y[near])]] = number
+    return numbers
+
+
+def in_region(polygon, cuts, x, y):
+    """Whether `polygon`, without `cuts`, holds each place."""
+    return holds(polygon, x, y) & ~np.any([holds(cut, x, y) for cut in cuts], axis=0)
+
+
+def holds(polygon, x, y):
+    """Whether `polygon` holds each place: a ray to the right leaves it an odd number of times."""
+    odd = np.zeros(len(x), bool)
+    for (ax, ay), (bx, by) in sides(polygon):
+        crossed = (ay > y) != (by > y)
+        odd[crossed] ^= x[crossed] < ax + (bx - ax) * (y[crossed] - ay) / (by - ay)
+    return odd
+
+
+def cells(heights, origin, spacing):
+    """Triangles (n, 3, 3) of a height map, two a cell; of a large one, of every second or third height."""
+    heights = np.asarray(heights, float)
+    ny, nx = heights.shape
+    stride = max(1, ceil(sqrt((ny - 1) * (nx - 1) / MOST_CELLS)))
+    rows, columns = (np.unique([*range(0, n, stride), n - 1]) for n in (ny, nx))
+    x, y = np.meshgrid(origin[0] + columns * spacing, origin[1] + rows * spacing)
+    grid = np.stack((x, y, heights[np.ix_(rows, columns)]), -1)
+    a, b, c, d = grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]
+    return np.stack((np.stack((a, b, c), 2), np.stack((a, c, d), 2)), 2).reshape(-1, 3, 3)

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is typed after the name of a node: help, mistakes that ROS would pass over, params files."""
+import os
+import re
+import shlex
+import stat
+import sys
+from typing import NamedTuple
+
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.logging import get_logger, LoggingSeverity, set_logger_level
+from rclpy.utilities import remove_ros_args
+import yaml
+
+from .. import __version__
+
+WRONG_ARGUMENTS, UNUSABLE = 2, 1  # exit codes
+HELP, VERSION = ('-h', '--help'), '--version'
+PARAM, REMAP, FILE = ('-p', '--param'), ('-r', '--remap'), '--params-file'
+TAKES_ONE = {*PARAM, *REMAP, FILE, '--log-level', '-e', '--enclave', '--log-config-file'}
+ASSIGN, SECTION = ':=', 'ros__parameters'
+OF_LAUNCH = 'launch_params_'  # files of launch_ros: what a launch file gives to a single node, under /**
+UNKNOWN = rclpy_implementation.UnknownROSArgsError
+IN_RCL = re.compile(r', at [^\s,]+:\d+|^Failed to parse ROS arguments: ')  # of no use to who typed it
+
+
+class Program(NamedTuple):
+    """What the command line of a node has to know of it."""
+
+    name: str       # of the executable
+    does: str       # in one line
+    parameters: dict  # name: (default, meaning)
+    example: str    # NAME:=VALUE
+
+
+def answered(program, words=None):
+    """Exit code where `words` leave nothing to run, after one line or the help; else None.
+
+    `words` are the arguments of the process, `sys.argv[1:]` if not given.
+    """
+    words = sys.argv[1:] if words is None else list(words)
+    if not set(words).isdisjoint(HELP):
+        print(help_of(program))
+        return 0
+    if VERSION in words:
+        print(f'golf_sim_ros {__version__}')
+        return 0
+    wrong = misplaced(program, words)
+    if wrong:
+        print(f'{program.name}: {wrong}', file=sys.stderr)
+        return WRONG_ARGUMENTS
+    code, line = objection(words)
+    if line:
+        get_logger('golf_sim_ros').fatal(line)
+    return code or None
+
+
+def help_of(program):
+    """Text of `--help`."""
+    lines = [f'usage: {command(program)} [--ros-args [-p NAME:=VALUE] [--params-file FILE] ...]', '',
+             program.does, '', 'parameters, with their defaults:']
+    for name, (default, meaning) in program.parameters.items():
+        lines += [f'  {name:<17} {shown(default):<21} {meaning}']
+    return '\n'.join([*lines, '', f'example: {command(program)} --ros-args -p {program.example}',
+                      '--version tells the version; what may follow --ros-args is as with every ROS 2 node'])
+
+
+def shown(default):
+    """A default as one types it."""
+    if isinstance(default, bool):
+        return str(default).lower()
+    return f'[{", ".join(default)}]' if isinstance(default, tuple) else str(default)
+
+
+def command(program):
+    """How the node is started."""
+    return f'ros2 run golf_sim_ros {program.name}'
+
+
+def split(words):
+    """`words` that are for ROS, without `--ros-args` and `--`, and those that are not."""
+    ours, ros, into_ros = [], [], False
+    for word in words:
+        if word == '--ros-args' or (word == '--' and into_ros):
+            into_ros = word == '--ros-args'
+        else:
+            (ros if into_ros else ours).append(word)
+    return ros, [word for word in ours if word]
+
+
+def pairs(words):
+    """Flags of `words` with what follows those that take something; what has no flag follows ''."""
+    left = iter(words)
+    for word in left:
+        if word in TAKES_ONE:
+            yield word, next(left, '')
+        else:
+            yield ('', word) if not word.startswith('-') else (word, '')
+
+
+def misplaced(program, words):
+    """One line about the first word that does nothing where it stands, with the right command; or ''.
+
+    rcl takes a bare `NAME:=VALUE` for a remap rule, and leaves alone all other words before `--ros-args`.
+    """
+    ros, ours = split(words)
+    right, wrong = [], ''
+    for flag, word in pairs(ours):
+        name = word.partition(ASSIGN)[0]
+        is_rule = ASSIGN in word
+        is_parameter = is_rule and flag not in REMAP and (name in program.parameters or flag in PARAM)
+        if is_parameter:
+            wrong = wrong or f'{word} sets no parameter without --ros-args'
+            right += ['-p', word]
+        elif is_rule and flag in ('', *REMAP):
+            right += ['-r', word]
+        elif flag in TAKES_ONE and word:
+            wrong = wrong or f'{flag} does nothing without --ros-args'
+            right += [flag, word]
+        else:
+            wrong = wrong or f'{flag or word} is no argument of this node; see --help'
+    right = shlex.join([*right, *ros] or ['-p', program.example])
+    return wrong and f'{wrong}; right is: {command(program)} --ros-args {right}'
+
+
+def objection(words):
+    """Exit code and one line about what rcl could not use of `words`; 0 and '' where there is nothing."""
+    for flag, rule in pairs(split(words)[0]):
+        if (flag in PARAM and not all(rule.partition(ASSIGN))) or (not flag and ASSIGN in rule):
+            return WRONG_ARGUMENTS, f'{f"{flag} {rule}".strip()!r}: a parameter is given as -p NAME:=VALUE'
+    for path in params_files(words):
+        reason = unreadable(path)
+        if reason:
+            return UNUSABLE, f'--params-file {path}: {reason}'
+    if all(os.path.isfile(path) for path in params_files(words)):  # of a pipe nothing is left to rclpy.init
+        return rcl_objection(words)
+    return 0, ''
+
+
+def unreadable(path):
+    """Why the file at `path` can't be read, or ''; it is not opened, as it may be a pipe."""
+    try:
+        mode = os.stat(path).st_mode
+    except OSError as error:
+        return error.strerror
+    if stat.S_ISDIR(mode):
+        return 'is a folder'
+    return '' if os.access(path, os.R_OK) else 'may not be read'
+
+
+def rcl_objection(words):
+    """The same in the words of rcl, which reads them twice so that it is told in one line."""
+    set_logger_level('rcl', LoggingSeverity.FATAL)  # the half of it would come in a line before
+    try:
+        remove_ros_args(['', *words])
+    except UNKNOWN as error:
+        return WRONG_ARGUMENTS, f'no ROS argument: {error}'
+    except RuntimeError as error:  # the base of all that rcl raises
+        return UNUSABLE, explained(error)
+    finally:
+        set_logger_level('rcl', LoggingSeverity.UNSET)
+    return 0, ''
+
+
+def explained(error):
+    """One line of what rcl says."""
+    return IN_RCL.sub('', ' '.join(str(error).split()))
+
+
+def params_files(words):
+    """Paths of the params files among `words`."""
+    return [path for flag, path in pairs(split(words)[0]) if flag == FILE]
+
+
+def only_for_all_nodes(words, node):
+    """Names of parameters that params files give to all nodes, and nothing in `words` to `node` itself."""
+    rules = [rule for flag, rule in pairs(split(words)[0]) if flag in PARAM]
+    own = {rule.partition(ASSIGN)[0].rpartition(':')[2] for rule in rules}
+    shared = set()
+    for path in params_files(words):
+        for section, names in sections(path):
+            if section == node or os.path.basename(path).startswith(OF_LAUNCH):
+                own |= names
+            elif section in ('*', '**'):
+                shared |= names
+    return shared - own
+
+
+def sections(path):
+    """Last part of the node's name, and the names of parameters, for each section of a params file."""
+    if not os.path.isfile(path):  # a pipe, read already
+        return []
+    try:
+        with open(path, encoding='utf-8') as file:
+            return list(sections_of('', yaml.load(file, Loader=yaml.BaseLoader)))
+    except (OSError, ValueError, yaml.YAMLError):  # rcl could read it: nothing to complain about here
+        return []
+
+
+def sections_of(name, content):
+    """The same of a part of the file; namespaces may hold nodes."""
+    for key, inside in content.items() if isinstance(content, dict) else ():
+        if key == SECTION:
+            yield name.rpartition('/')[2], set(dotted(inside))
+        else:
+            yield from sections_of(key, inside)
+
+
+def dotted(parameters, before=''):
+    """Names of parameters as ROS has them: those of an inner mapping follow a dot."""
+    for name, value in parameters.items() if isinstance(parameters, dict) else ():
+        if isinstance(value, dict):
+            yield from dotted(value, f'{before}{name}.')
+        else:
+            yield f'{before}{name}'

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+"""ROS messages from records of the physics, and back."""
+from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
+from rclpy.time import Time
+from std_msgs.msg import Header, String
+
+from ..recording.json_format import collision_text, rejection_text, result_text
+
+
+def header(frame, start, time):
+    """Header in `frame` for simulated `time` [s] of a node that started at `start` [ns of ROS time]."""
+    stamp = Time(nanoseconds=start + round(time * 1e9)).to_msg()
+    return Header(stamp=stamp, frame_id=frame)
+
+
+def triple(vector):
+    """Three floats of a Vector3 or Point."""
+    return vector.x, vector.y, vector.z
+
+
+def fill(message, vector):
+    """`message`, a Vector3 or Point, after `vector` was written to it."""
+    message.x, message.y, message.z = (float(number) for number in vector)
+    return message
+
+
+def pose(head, ball, orientation):
+    """PoseStamped of `ball`, turned by the quaternion `orientation` (x, y, z, w)."""
+    message = PoseStamped(header=head)
+    fill(message.pose.position, ball.position)
+    turn = message.pose.orientation
+    turn.x, turn.y, turn.z, turn.w = orientation
+    return message
+
+
+def twist(head, ball):
+    """TwistStamped of velocity and spin of `ball`."""
+    message = TwistStamped(header=head)
+    fill(message.twist.linear, ball.velocity)
+    fill(message.twist.angular, ball.spin)
+    return message
+
+
+def contact(head, collision):
+    """PointStamped where `collision` happened."""
+    message = PointStamped(header=head)
+    fill(message.point, collision.position)
+    return message
+
+
+def collision_json(collision):
+    """String with one JSON object, in full precision."""
+    return String(data=collision_text(collision))
+
+
+def result_json(result, shot):
+    """String with one JSON object for the end of strike number `shot`, rounded for people."""
+    return String(data=result_text(result, shot))
+
+
+def rejection_json(shot, ball, velocity, spin, reason):
+    """String with one JSON object for strike number `shot`, which was not played."""
+    return String(data=rejection_text(shot, ball, velocity, spin, reason))

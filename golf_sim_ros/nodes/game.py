@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The game in time: what arrives is applied between ticks, what happens is told."""
+from time import perf_counter, process_time
+
+import numpy as np
+
+from ..physics import Rejected, Result
+from ..physics.engine.orientation import UPRIGHT
+from ..recording.journal import Journal
+from ..recording.json_format import state_text
+from . import conversions, log_lines
+from .diagnostics import Diagnosis, SLOW
+from .real_time import Pace
+
+CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
+REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
+BUSY = 0.95  # of the time between steps goes to simulating as fast as it can
+LONGEST_BUSY = 0.1  # s without hearing anything
+SCENE_RATE = 10.0  # play markers a second: they are large, and eyes are slow
+
+
+class Game:
+    """A world that goes with the wall clock.
+
+    Parameters
+    ----------
+    world : World
+    broadcast : Broadcast
+        Where it is told.
+    refusals : Refusals
+        Where it is told what was not done.
+    log : rclpy.impl.rcutils_logger.RcutilsLogger
+        Where shots are told to people.
+    given : Parameters
+        Its rates are those of ticks and of steps.
+    takeover : Takeover
+        Told what the play costs, and asked between shots which engine goes on.
+    """
+
+    def __init__(self, world, broadcast, refusals, log, given, takeover):
+        self.world, self.broadcast, self.refusals, self.log = world, broadcast, refusals, log
+        self.takeover = takeover
+        self.pace = Pace(1.0 / given.rate, max(1, round(given.rate / given.publish_rate)),
+                         given.real_time_factor)
+        self.busy = min(BUSY / given.publish_rate, LONGEST_BUSY)
+        self.keeps_time = given.publish_clock
+        self.journal, self.ticks = Journal(broadcast.tell_entry), 0
+        self.diagnosis = Diagnosis()
+        world.measure()
+        self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
+        self.steps = self.shots = 0  # shots: strikes received
+        self.numbers = {}  # of strikes under way, by those of the world, which counts what it takes
+        self.inputs = []
+        self.wind = self.blowing = (0.0, 0.0, 0.0)
+        self.paused = self.stood_still = False  # now, and at any time since the last diagnosis
+        self.failures = 0  # of balls that could not go on, as last told
+        self.began, self.spent = perf_counter(), process_time()  # when the last advance began
+        self.turned = np.tile(UPRIGHT, (len(world.names), 1))
+        self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
+        self.awake = set()  # balls whose pose was still changing when last told
+        self.course_due = self.all_due = True
+
+    @property
+    def asleep(self):
+        """Whether nothing changes until something arrives."""
+        stands_still = self.pace.hurries or not self.keeps_time
+        return self.paused or stands_still and not self.world.moving
+
+    def step(self):
+        """Let the time pass that has passed on the clock, apply what arrived, tell."""
+        self.advance()
+        if not self.world.moving:
+            self.takeover.between_shots()
+        if not self.paused:
+            self.apply()
+        with self.diagnosis.publishing():
+            self.tell()
+
+    def advance(self):
+        """Advance by as many whole ticks as are due; where they are many, tell in between."""
+        passed, spent = perf_counter() - self.began, process_time() - self.spent
+        self.began, self.spent = self.began + passed, self.spent + spent
+        if self.paused:
+            self.stood_still = True
+            self.pace.skip()
+            return
+        moving = self.world.moving
+        if self.pace.hurries and not moving:
+            self.pace.skip()
+            return
+        if moving:
+            self.takeover.note(spent, passed)
+        self.advance_by_portions(moving)
+
+    def advance_by_portions(self, moving):
+        """Advance by the ticks that are due."""
+        done = 0
+        for ticks in self.pace.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
+            if done and self.world.moving:
+                with self.diagnosis.publishing():
+                    self.tell_balls()
+            for _ in range(ticks):
+                self.tick()
+                if self.pace.hurries and not self.world.moving:
+                    return
+            done += ticks
+        if moving and not self.pace.hurries:
+            self.diagnosis.count(done, self.pace.usual * self.pace.factor)
+
+    def tick(self):
+        """Advance by one tick and tell what happened in it."""
+        began = perf_counter()
+        events = self.world.advance(self.pace.tick)
+        self.ticks += 1
+        self.diagnosis.note_tick(perf_counter() - began)
+        self.world.turn(self.turned, self.pace.tick)
+        if events:
+            with self.diagnosis.publishing():
+                self.tell_events(events)
+
+    def tell_events(self, events):
+        """Tell collisions and ends of shots."""
+        for event in events:
+            if isinstance(event, Result):
+                self.finish(event)
+            else:
+                self.broadcast.tell_collision(event)
+
+    def apply(self):
+        """Do what arrived, in order; the wind first, so that a shot starts in it."""
+        if self.wind != self.blowing:
+            self.world.set_wind(self.wind)
+            self.blowing = self.wind
+            if self.world.moving:
+                self.journal.note('wind', self.ticks, wind=self.wind)
+        inputs, self.inputs = self.inputs, []
+        for act in inputs:
+            act()
+            self.tell_events(self.world.happened())
+
+    def strike(self, name, velocity, spin):
+        """Strike a ball; a bad shot has its result at once."""
+        self.shots += 1
+        before = state_text(self.world)
+        try:
+            self.world.strike(name, velocity, spin)
+        except Rejected as error:
+            self.broadcast.results.publish(
+                conversions.rejection_json(self.shots, name, velocity, spin, str(error)))
+            self.refusals.warn('shot', f'{name}: {error}')
+            return
+        self.numbers[self.world.shots] = self.shots
+        self.journal.strike(self.ticks, self.shots, name, (velocity, spin), before)
+        self.broadcast.scene.trails[name].clear()
+
+    def place(self, name, point):
+        """Put a resting ball on the ground at the x and y of `point`."""
+        try:
+            if name in self.world.in_motion:
+                raise ValueError('it is in motion')
+            self.world.place(name, point[:2])
+        except ValueError as error:
+            self.refusals.warn('place', f'{name}: {error}')
+            return
+        self.journal.note('place', self.ticks, ball=name, position=point[:2])
+        self.broadcast.scene.trails[name].clear()
+        self.all_due = True
+
+    def reset(self):
+        """All balls back to the start; shots under way end as aborted."""
+        aborted = self.world.reset()
+        self.journal.note('reset', self.ticks)
+        self.tell_events([*self.world.happened(), *aborted])
+        self.turned[:] = UPRIGHT
+        for name in self.world.names:
+            self.broadcast.scene.trails[name].clear()
+        self.all_due = True
+
+    def finish(self, result):
+        """Tell the end of a shot."""
+        self.awake.add(result.ball)
+        shot, ball = self.numbers.pop(result.shot), self.world[result.ball]
+        self.journal.rest(self.ticks, shot, result, ball)
+        if result.status in ('out_of_bounds', 'water', 'failed'):
+            self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
+        self.broadcast.results.publish(conversions.result_json(result, shot))
+        if result.status == 'failed':
+            self.log.error(f'shot {shot} failed, and {result.ball} is back where it was struck: '
+                           f'{result.reason}')
+        else:
+            self.log.info(log_lines.line(result))
+
+    def be_exact(self, accuracy):
+        """Simulate with another accuracy from now on."""
+        self.world.accuracy = accuracy
+        if self.world.moving:
+            self.journal.note('accuracy', self.ticks, accuracy=accuracy)
+
+    def pass_at(self, factor):
+        """Let time pass `factor` times as fast as the clock from now on."""
+        self.advance()
+        self.pace.factor = factor
+
+    def tell(self):
+        """Balls that move or have just stopped; everything that somebody waits for."""
+        scene_due = self.scene_due()
+        self.tell_balls(self.all_due)
+        if scene_due:
+            self.broadcast.tell_scene(self.blowing)
+        if self.course_due:
+            self.broadcast.tell_course()
+        self.all_due = self.course_due = False
+
+    def tell_balls(self, all_of_them=False):
+        """The time, and balls that move or have just stopped."""
+        moving = set(self.world.in_motion)
+        self.broadcast.tell_time()
+        balls = {name: self.world[name]
+                 for name in (self.world.names if all_of_them else moving | self.awake)}
+        self.broadcast.tell_balls(balls, self.orientations)
+        for name in moving:
+            self.broadcast.scene.trails[name].add(balls[name].position)
+        self.awake = moving
+
+    def scene_due(self):
+        """Whether the markers are due: seldom, but always where balls stop."""
+        self.steps += 1
+        moving = set(self.world.in_motion)
+        return self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
+
+    def diagnose(self):
+        """Tell how well simulated time keeps up with the clock."""
+        self.diagnosis.mark(self.world)
+        slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.stood_still
+        self.stood_still = self.paused
+        failures = self.world.failures
+        if failures > self.failures:
+            self.log.error(f'{failures} balls could not go on so far; the last: {self.world.last_failure}')
+        self.failures = failures
+        if slow:
+            self.log.warning(f'slower than the clock: {self.diagnosis.factor:.3g} simulated seconds a second '
+                             f'instead of {self.pace.factor:g}; no tick is left out, the play is the same',
+                             throttle_duration_sec=1.0)
+        self.broadcast.tell_diagnosis(slow, {
+            **self.diagnosis.values(self.world, self.pace.lost), **self.takeover.values()})

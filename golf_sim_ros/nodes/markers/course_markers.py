@@ -1,0 +1,217 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The course as markers: one list of triangles a material, and what stands on the ground."""
+from functools import singledispatch
+
+from geometry_msgs.msg import Point
+import numpy as np
+from std_msgs.msg import ColorRGBA
+from visualization_msgs.msg import Marker, MarkerArray
+
+from ...drawing.polygon_triangles import triangles
+from ...drawing.zone_triangles import cells, curved, flat
+from ...physics import ground_height
+from ...physics.geometry.cup import DEPTH, RADIUS
+from ...physics.geometry.heightmap import Heightmap, corners as corners_of_map
+from ...physics.geometry.mesh import Mesh
+from ...physics.geometry.patch import Patch
+from ...physics.geometry.plane import Plane
+from ...physics.geometry.plane_patch import frame
+from ...physics.geometry.solid import FLAGSTICK_HEIGHT, FLAGSTICK_RADIUS, Sphere
+
+MARGIN = 60.0  # m of an endless plane that are drawn around everything else
+HOLE_DIAMETER = 2 * RADIUS
+FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the stick's foot
+TEE_MARKERS = 4.0  # m from one to the other
+UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
+BLACK, WHITE, RED = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.85, 0.1, 0.1)
+BLUE, CLEAR = (0.15, 0.4, 0.75), 0.6  # water, and how much of it is seen
+
+
+def course_markers(course, frame_id):
+    """MarkerArray of `course`, stamp 0 so that viewers use their newest transform."""
+    by_material = {}
+    for number, shape in enumerate(course.ground):
+        for material, pieces in surface(shape, course, number):
+            by_material.setdefault(material, []).extend(corner for piece in pieces for corner in piece)
+    lists = [ground_marker(number, material, corners)
+             for number, (material, corners) in enumerate(by_material.items()) if corners]
+    markers = [*lists, *tee(course), *hole(course), *obstacles(course), *water(course)]
+    for marker in markers:
+        marker.header.frame_id = frame_id
+    return MarkerArray(markers=markers)
+
+
+def ground_marker(number, material, corners):
+    """TRIANGLE_LIST of all that is of `material`."""
+    made = marker('ground', number, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), material.color)
+    made.points = points(corners)
+    return made
+
+
+@singledispatch
+def surface(shape, course, number):
+    """Materials, and triangles of three (x, y, z) of each, that show entry `number` of the ground."""
+    raise TypeError(f'nothing is known about drawing a {type(shape).__name__}')
+
+
+@surface.register
+def _plane(shape: Plane, course, number):
+    if abs(shape.normal[2]) < UPRIGHT:
+        return wall(shape)
+    pieces = flat(outskirts(course), covered(shape, course, number), shape.material, course.zones)
+    return lifted(shape.point, shape.normal, pieces)
+
+
+@surface.register
+def _patch(shape: Patch, course, number):
+    corners = rectangle(shape)
+    if abs(shape.normal[2]) < UPRIGHT:
+        return [(shape.material, [corners[:3], [corners[0], *corners[2:]]])]
+    outline = [tuple(corner[:2]) for corner in corners]
+    pieces = flat(outline, covered(shape, course, number), shape.material, course.zones)
+    return lifted(shape.center, shape.normal, pieces)
+
+
+@surface.register
+def _mesh(shape: Mesh, course, number):
+    return curved(shape.vertices[shape.faces], shape.material, course.zones)
+
+
+@surface.register
+def _heightmap(shape: Heightmap, course, number):
+    return curved(cells(shape.heights, shape.origin, shape.spacing), shape.material, course.zones)
+
+
+def rectangle(patch):
+    """Four corners of `patch`."""
+    _, along, across = frame(patch.normal, patch.heading)
+    along, across = 0.5 * patch.length * along, 0.5 * patch.width * across
+    return [np.add(patch.center, turn) for turn in
+            (along + across, across - along, -along - across, along - across)]
+
+
+def wall(plane):
+    """Two triangles of an upright `plane`, as wide and high as `MARGIN`."""
+    return _patch(Patch(plane.point, plane.normal, 0.0, MARGIN, MARGIN, plane.material), None, 0)
+
+
+def lifted(place, normal, pieces):
+    """`pieces`, materials with triangles of (x, y) of each, in the plane through `place`."""
+    def height(x, y):
+        return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
+    return [(material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
+            for material, found in pieces]
+
+
+def covered(shape, course, number):
+    """Polygons where `shape` is not seen: its cuts, and later patches in the same plane."""
+    later = [patch for patch in course.ground[number + 1:]
+             if isinstance(patch, Patch) and not patch.cut and coplanar(shape, patch)]
+    return [*shape.cut, *([tuple(corner[:2]) for corner in rectangle(patch)] for patch in later)]
+
+
+def coplanar(shape, patch):
+    """Whether `patch` lies in the plane of `shape`."""
+    normal = frame(shape.normal, 0.0)[0]
+    place = shape.point if isinstance(shape, Plane) else shape.center
+    parallel = abs(frame(patch.normal, 0.0)[0] @ normal) > 1 - 1e-12
+    return parallel and abs(np.subtract(patch.center, place) @ normal) < 1e-6
+
+
+def outskirts(course):
+    """Corners of a rectangle around all that lies on `course`, `MARGIN` wide."""
+    places = [course.tee, *([course.hole] if course.hole else []), *(course.bounds or ())]
+    for shape in course.ground:
+        places += [tuple(corner[:2]) for corner in extent(shape)]
+    low, high = np.min(places, 0) - MARGIN, np.max(places, 0) + MARGIN
+    return (low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])
+
+
+def extent(shape):
+    """Points around what is finite of `shape`."""
+    if isinstance(shape, Mesh):
+        used = shape.vertices[shape.faces].reshape(-1, 3)
+        return used.min(0), used.max(0)
+    if isinstance(shape, Heightmap):
+        return corners_of_map(shape)
+    return rectangle(shape) if isinstance(shape, Patch) else sum(shape.cut, ())
+
+
+def tee(course):
+    """The two balls between which the tee is."""
+    made = marker('tee', 0, Marker.SPHERE_LIST, (0.15, 0.15, 0.15), WHITE)
+    sides = [(course.tee[0], course.tee[1] + 0.5 * side * TEE_MARKERS) for side in (1, -1)]
+    found = [ground_height(course, *side) for side in sides]
+    made.points = points((*side, place[0]) for side, place in zip(sides, found) if place)
+    return [made]
+
+
+def hole(course):
+    """Disc, flagstick and flag; nothing without a hole."""
+    if course.hole is None:
+        return []
+    x, y = course.hole
+    z = ground_height(course, x, y)[0]
+    disc = marker('hole', 0, Marker.CYLINDER, (HOLE_DIAMETER, HOLE_DIAMETER, 0.004), BLACK)
+    put(disc, x, y, z)
+    return [disc, *flagstick(x, y, z - DEPTH)] if course.flagstick else [disc]
+
+
+def flagstick(x, y, z):
+    """Stick and flag over a hole whose bottom is at `x`, `y`, `z`."""
+    diameter, height = 2 * FLAGSTICK_RADIUS, FLAGSTICK_HEIGHT
+    stick = marker('hole', 1, Marker.CYLINDER, (diameter, diameter, height), WHITE)
+    put(stick, x, y, z + 0.5 * height)
+    flag = marker('hole', 2, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), RED)
+    flag.points = points((x + ahead, y, z + over) for ahead, over in FLAG)
+    return [stick, flag]
+
+
+def water(course):
+    """TRIANGLE_LIST of all water, that the ground below shines through; nothing on dry land."""
+    if not course.water:
+        return []
+    made = marker('water', 0, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), BLUE)
+    made.color.a = CLEAR
+    made.points = points((x, y, pond.level) for pond in course.water
+                         for triangle in triangles(pond.polygon, pond.cut) for x, y in triangle)
+    return [made]
+
+
+def obstacles(course):
+    """Cylinders and spheres."""
+    return [obstacle(number, shape) for number, shape in enumerate(course.obstacles)]
+
+
+def obstacle(number, shape):
+    """Marker of a cylinder or sphere."""
+    across = 2 * shape.radius
+    if isinstance(shape, Sphere):
+        made = marker('obstacles', number, Marker.SPHERE, (across, across, across), shape.material.color)
+        put(made, *shape.center)
+    else:
+        size = (across, across, shape.height)
+        made = marker('obstacles', number, Marker.CYLINDER, size, shape.material.color)
+        x, y, z = shape.base
+        put(made, x, y, z + 0.5 * shape.height)
+    return made
+
+
+def marker(namespace, number, kind, scale, color):
+    """Marker of `kind` at the origin."""
+    made = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD)
+    made.scale.x, made.scale.y, made.scale.z = scale
+    made.color = ColorRGBA(r=float(color[0]), g=float(color[1]), b=float(color[2]), a=1.0)
+    made.pose.orientation.w = 1.0
+    return made
+
+
+def put(made, x, y, z):
+    """Move the marker `made`."""
+    place = made.pose.position
+    place.x, place.y, place.z = float(x), float(y), float(z)
+
+
+def points(corners):
+    """Point messages of triples."""
+    return [Point(x=float(x), y=float(y), z=float(z)) for x, y, z in corners]

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The play as a handful of markers: balls, trails, last contacts, wind."""
+from collections import deque
+
+from visualization_msgs.msg import Marker, MarkerArray
+
+from ...physics import ground_height
+from .course_markers import marker, points, put
+
+TRAIL, TRAILS = 300, 3000  # points at most of a trail, and of all,
+LEAST = 20  # but so many every trail may have
+CONTACTS = 20  # last contacts that are shown
+TRAIL_WIDTH, CONTACT_SIZE = 0.05, 0.15  # m
+ARROW = (0.15, 0.4, 0.5)  # m: diameters of shaft and head, length of the head
+ARROW_HEIGHT = 10.0  # m over the tee, where wind is given
+BALL, PATH, HIT, AIR = (1.0, 1.0, 1.0), (1.0, 0.9, 0.2), (0.9, 0.3, 0.1), (0.3, 0.6, 1.0)
+
+
+class Trail:
+    """Places where a ball was since it was struck, at most `most`, evenly spread over its way.
+
+    When full, every other place is dropped and from then on half as many are taken.
+    """
+
+    def __init__(self, most):
+        self.most = most
+        self.clear()
+
+    def clear(self):
+        """Start again."""
+        self.places = []
+        self.every = 1
+        self.seen = 0
+
+    def add(self, place):
+        """Take `place`, or not, if it is not its turn."""
+        if self.seen % self.every == 0:
+            self.places.append(tuple(place))
+        self.seen += 1
+        if len(self.places) >= self.most:
+            self.places = self.places[::2]
+            self.every *= 2
+
+
+class Scene:
+    """What is remembered of the play in `world` to draw it."""
+
+    def __init__(self, world):
+        most = max(LEAST, min(TRAIL, TRAILS // len(world.names)))
+        self.trails = {name: Trail(most) for name in world.names}
+        self.contacts = deque(maxlen=CONTACTS)
+        self.size = 2 * world.course.ball.radius
+        x, y = world.course.tee
+        self.place = x, y, ground_height(world.course, x, y)[0]
+
+    def markers(self, head, world, wind):
+        """MarkerArray of now: `world` has the balls, `wind` [m/s] an arrow, a metre for each m/s."""
+        found = [self.hits(), self.arrow(wind)]
+        for number, (name, trail) in enumerate(self.trails.items()):
+            ball = marker('ball', number, Marker.SPHERE, (self.size,) * 3, BALL)
+            put(ball, *world[name].position)
+            path = marker('trail', number, Marker.LINE_STRIP, (TRAIL_WIDTH, 0.0, 0.0), PATH)
+            path.points = points([*trail.places, world[name].position])
+            found += [ball, path]
+        for made in found:
+            made.header = head
+        return MarkerArray(markers=found)
+
+    def hits(self):
+        """Spheres at the last contacts."""
+        made = marker('contacts', 0, Marker.SPHERE_LIST, (CONTACT_SIZE,) * 3, HIT)
+        made.points = points(self.contacts)
+        return hidden(made, not self.contacts)
+
+    def arrow(self, wind):
+        """Arrow to where the air goes."""
+        x, y, z = self.place
+        z += ARROW_HEIGHT
+        made = marker('wind', 0, Marker.ARROW, ARROW, AIR)
+        made.points = points([(x, y, z), (x + wind[0], y + wind[1], z + wind[2])])
+        return hidden(made, not any(wind))
+
+
+def hidden(made, empty):
+    """The marker `made`, or one that takes it away where it is `empty`."""
+    if empty:
+        made.action = Marker.DELETE
+        made.points = []
+    return made

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All that `sim_node` publishes, with the qualities of service and why."""
+from time import monotonic, time_ns
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import String
+from visualization_msgs.msg import MarkerArray
+
+from ..recording.json_format import text
+from . import conversions
+from .diagnostics import diagnostic
+from .markers.course_markers import course_markers
+from .markers.play_markers import Scene
+from .older_rclpy import on_match, watch
+
+STREAM = QoSProfile(depth=10)  # reliable, volatile: only what is new counts
+POINTS = QoSProfile(depth=100)  # a bouncing ball makes many at once
+# Nothing of it may be missed: who joins late or loses the link for a while gets the last ones.
+EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+CLOCK_PERIOD = 0.01  # s of wall time at least
+BEAT = QoSProfile(depth=1)  # only the last one counts; reliable, so that it matches whatever is asked for
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Broadcast:
+    """Publishers, and what is needed to write their messages.
+
+    Parameters
+    ----------
+    node : rclpy.node.Node
+        Who publishes. Simulated time begins now, on its clock.
+    world : World
+    given : Parameters
+        Tells the frame of every stamp, and whether simulated time itself is the stamp and on /clock.
+    on_viewer, on_follower : callable
+        Called when somebody subscribes to the course's markers, or to a ball.
+    """
+
+    def __init__(self, node, world, given, on_viewer, on_follower):
+        self.node, self.world, self.frame = node, world, given.frame_id
+        self.began = 0 if given.publish_clock else node.get_clock().now().nanoseconds
+        self.clock = node.create_publisher(Clock, '/clock', STREAM) if given.publish_clock else None
+        self.next_clock = monotonic()
+        self.scene = Scene(world)
+        self.config, self.entries_since = '', 0
+        self.open_balls(on_match(on_follower))
+        watch(node, [*self.poses.values(), *self.twists.values()], on_follower)
+        make = node.create_publisher
+        self.collisions = make(String, 'collisions', EVENTS)
+        self.results = make(String, 'shot/result', EVENTS)
+        self.journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.tell_config))
+        self.course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
+        watch(node, [self.journal], self.tell_config)
+        watch(node, [self.course], on_viewer)
+        self.play = make(MarkerArray, 'play/markers', STREAM)
+        self.diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
+        self.heartbeat, self.session = make(String, 'heartbeat', BEAT), time_ns()
+
+    def open_balls(self, matched):
+        """Publishers of each ball, by name."""
+        make, names = self.node.create_publisher, self.world.names
+        self.poses = {name: make(PoseStamped, f'{name}/pose', STREAM, event_callbacks=matched)
+                      for name in names}
+        self.twists = {name: make(TwistStamped, f'{name}/twist', STREAM, event_callbacks=matched)
+                       for name in names}
+        self.contacts = {name: make(PointStamped, f'{name}/contact', POINTS) for name in names}
+
+    def head(self, time):
+        """Header of a message about simulated `time`."""
+        return conversions.header(self.frame, self.began, time)
+
+    def tell_time(self):
+        """Simulated time on /clock, where that is wanted, and not too often."""
+        now = monotonic()
+        if self.clock and now >= self.next_clock:
+            self.next_clock = now + CLOCK_PERIOD
+            self.clock.publish(Clock(clock=self.head(self.world.time).stamp))
+
+    def tell_balls(self, balls, orientations):
+        """Poses and twists of `balls`, by name."""
+        head = self.head(self.world.time)
+        for name, ball in balls.items():
+            if heard(self.poses[name]):
+                self.poses[name].publish(conversions.pose(head, ball, orientations[name]))
+            if heard(self.twists[name]):
+                self.twists[name].publish(conversions.twist(head, ball))
+
+    def tell_collision(self, collision):
+        """A contact, as JSON and as a point."""
+        self.collisions.publish(conversions.collision_json(collision))
+        both = [collision.ball] + [collision.with_] * (collision.kind == 'ball')
+        for name in both:
+            if heard(self.contacts[name]):
+                self.contacts[name].publish(conversions.contact(self.head(collision.time), collision))
+        self.scene.contacts.append(collision.position)
+
+    def tell_entry(self, text):
+        """An entry of the journal; the first one is the configuration."""
+        self.config = self.config or text
+        self.entries_since += 1
+        self.journal.publish(String(data=text))
+
+    def tell_config(self):
+        """The configuration once more, unless it is among the last entries, which who joins gets anyway."""
+        if self.entries_since > EVENTS.depth:
+            self.entries_since = 1
+            self.journal.publish(String(data=self.config))
+
+    def tell_heartbeat(self, shots, paused):
+        """That the sim is there: which start of it, how many strikes it has received, whether time stands."""
+        self.heartbeat.publish(String(data=text({'session': self.session, 'shots': shots, 'paused': paused})))
+
+    def tell_scene(self, wind):
+        """Markers of the play."""
+        if heard(self.play):
+            self.play.publish(self.scene.markers(self.head(self.world.time), self.world, wind))
+
+    def tell_course(self):
+        """Markers of the course."""
+        self.course.publish(course_markers(self.world.course, self.frame))
+
+    def tell_diagnosis(self, slow, values):
+        """How the simulation does."""
+        now = self.node.get_clock().now().to_msg()
+        name = f'{self.node.get_fully_qualified_name()}: play'
+        self.diagnostics.publish(diagnostic(now, name, slow, values))
+
+
+def heard(publisher):
+    """Whether anybody listens; if not, a message of which nothing is kept need not be made."""
+    return publisher.get_subscription_count() > 0

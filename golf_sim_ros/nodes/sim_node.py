@@ -1,0 +1,219 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The node that plays: shots and wind come in, the play goes out."""
+from functools import partial
+import sys
+from time import perf_counter
+
+from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.qos import qos_policy_name_from_kind, QoSProfile, ReliabilityPolicy
+from std_srvs.srv import SetBool, Trigger
+
+from ..course import load_course
+from ..physics import World
+from ..physics.world import checked_wind
+from .conversions import triple
+from .game import Game
+from .lifecycle import run
+from .log_lines import effect_lines, with_reasons
+from .older_rclpy import SubscriptionEventCallbacks, UnsupportedEventTypeError, after_set
+from .parameters import PROGRAM, checked, declared
+from .publishers import Broadcast
+from .rejected_inputs import Refusals
+from .takeover import Takeover, load_compiled
+
+COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
+# Asks for the least, so it matches every publisher; only the newest wind counts.
+NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+LONGEST_SHOWN = 80  # characters of what was sent, in the log
+HEARTBEAT = 0.5  # s from one to the next
+EXAMPLE = '{linear: {x: 65.0, z: 14.0}, angular: {y: -280.0}}'
+
+
+class SimNode(Node):
+    """The node `golf_sim`. Callbacks store what arrives; one timer lets time pass.
+
+    Parameters
+    ----------
+    context : rclpy.context.Context, optional
+    namespace : str, optional
+    parameter_overrides : list of rclpy.parameter.Parameter, optional
+
+    Raises
+    ------
+    ValueError
+        A parameter or the course cannot be used; the message is one line.
+    """
+
+    def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
+        super().__init__('golf_sim', context=context, namespace=namespace,
+                         parameter_overrides=parameter_overrides)
+        given = declared(self)
+        self.world = self.new_world(given)
+        self.frame, self.refusals = given.frame_id, Refusals(self.get_logger())
+        broadcast = Broadcast(self, self.world, given, self.on_viewer, self.on_follower)
+        takeover = Takeover(self.world, given.engine, self.get_logger())
+        self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given, takeover)
+        self.game.journal.config(self.world, given._asdict(), broadcast.began)
+        self.subscribe(given)
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
+        self.beat = self.create_timer(1.0, self.on_beat, clock=steady)
+        self.heart = self.create_timer(HEARTBEAT, self.on_heartbeat, clock=steady)
+        self.introduce()
+
+    def new_world(self, given):
+        """World as `given`, ready: no shot shall wait for a compiler."""
+        began = perf_counter()
+        world = World(load_course(given.course), given.balls, given.effects, given.accuracy, engine='python')
+        if given.engine == 'compiled':
+            load_compiled(world, self.get_logger())
+        self.get_logger().info(f'physics loaded in {perf_counter() - began:.1f} s, engine {world.engine}')
+        return world
+
+    def subscribe(self, given):
+        """Open the ways in: topics, services, live parameters."""
+        first = self.world.names[0]
+        self.strikes = self.hear_strikes('shot', first)
+        for name in self.world.names:
+            self.hear_strikes(f'{name}/shot', name)
+            self.create_subscription(PointStamped, f'{name}/place', partial(self.on_place, name), COMMANDS)
+        self.create_subscription(Vector3Stamped, 'wind', self.on_wind, NEWEST)
+        self.create_service(Trigger, '~/reset', self.on_reset)
+        self.create_service(SetBool, '~/pause', self.on_pause)
+        self.add_on_set_parameters_callback(partial(checked, given.publish_clock))
+        after_set(self, self.on_parameters)
+
+    def hear_strikes(self, topic, name):
+        """Subscription to strikes of a ball; what DDS tells of those that do not arrive is told."""
+        on_strike = partial(self.on_shot, name)
+        events = {'incompatible_qos': partial(self.on_unheard, topic), 'message_lost': self.on_lost}
+        try:
+            callbacks = SubscriptionEventCallbacks(**events)
+            return self.create_subscription(Twist, topic, on_strike, COMMANDS, event_callbacks=callbacks)
+        except UnsupportedEventTypeError:  # a middleware that cannot tell
+            return self.create_subscription(Twist, topic, on_strike, COMMANDS)
+
+    def on_unheard(self, topic, event):
+        """Warn of a publisher of strikes that is not heard."""
+        if event.total_count_change > 0:
+            policy = qos_policy_name_from_kind(event.last_policy_kind)
+            self.get_logger().warning(f'a publisher of {topic} is not heard: its {policy} does not match; '
+                                      'strikes must be published reliable')
+
+    def on_lost(self, event):
+        """Count strikes that arrived and were dropped before anybody saw them."""
+        self.game.diagnosis.strikes_lost += event.total_count_change
+
+    def introduce(self):
+        """Tell in the log what is played, what is simulated, and how to strike."""
+        log, world = self.get_logger(), self.world
+        log.info(f'course: {world.course.name} ({world.course.path})')
+        for note in world.course.notes:
+            log.info(note)
+        for line in effect_lines(world):
+            log.info(line)
+        if world.effects_needless:
+            log.warning(f'asked for, but nothing here calls for it: {with_reasons(world.effects_needless)}')
+        log.info('ready; to strike the ball, paste: ros2 topic pub --once '
+                 f"{self.strikes.topic_name} geometry_msgs/msg/Twist '{EXAMPLE}'")
+
+    def on_shot(self, name, message):
+        """Keep a strike for the next step."""
+        self.store(partial(self.game.strike, name, triple(message.linear), triple(message.angular)))
+
+    def on_place(self, name, message):
+        """Keep a place for the next step."""
+        if self.in_frame('place', message):
+            self.store(partial(self.game.place, name, triple(message.point)))
+
+    def on_wind(self, message):
+        """Keep the wind; it is felt from the next step on."""
+        if not self.in_frame('wind', message):
+            return
+        try:
+            self.game.wind = checked_wind(triple(message.vector))
+        except ValueError as error:
+            self.refusals.warn('wind', str(error))
+            return
+        self.game.diagnosis.note_wind()
+
+    def in_frame(self, kind, message):
+        """Whether `message` is in the course's frame or says nothing about it; if not, it is refused."""
+        frame = message.header.frame_id
+        if frame in ('', self.frame):
+            return True
+        shown = frame if len(frame) <= LONGEST_SHOWN else f'{frame[:LONGEST_SHOWN]}...'
+        self.refusals.warn(kind, f'frame {shown!r} is not {self.frame!r}')
+        return False
+
+    def on_viewer(self):
+        """Somebody looks at the course: tell it once more."""
+        self.game.course_due = True
+        self.wake()
+
+    def on_follower(self):
+        """Somebody follows a ball: tell where it is."""
+        self.game.all_due = True
+        self.wake()
+
+    def on_reset(self, request, response):
+        """Put all balls back, after what arrived before."""
+        self.game.inputs.append(self.game.reset)
+        self.game.apply()
+        self.wake()
+        response.success, response.message = True, 'every ball is back at the start'
+        return response
+
+    def on_pause(self, request, response):
+        """Let time stand still from now on, or go on."""
+        self.game.advance()
+        self.game.paused = request.data
+        self.wake()
+        response.success, response.message = True, 'paused' if request.data else 'playing'
+        return response
+
+    def on_parameters(self, parameters):
+        """Follow the parameters that may change."""
+        for parameter in parameters:
+            if parameter.name == 'accuracy':
+                self.game.be_exact(parameter.value)
+            elif parameter.name == 'real_time_factor':
+                self.game.pass_at(parameter.value)
+                self.wake()
+
+    def store(self, act):
+        """Keep `act`, to be done by the next step."""
+        self.game.inputs.append(act)
+        self.wake()
+
+    def wake(self):
+        """Let the timer run. One that runs is left alone, or a flood of messages would hold it up."""
+        if self.timer.is_canceled():
+            self.timer.reset()
+
+    def on_timer(self):
+        """One step; at rest the timer sleeps, so that a ball at rest costs next to nothing."""
+        self.game.step()
+        if self.game.asleep:
+            self.timer.cancel()
+
+    def on_heartbeat(self):
+        """Tell that the node is there; one that hangs does not."""
+        self.game.broadcast.tell_heartbeat(self.game.shots, self.game.paused)
+
+    def on_beat(self):
+        """Once a second, moving or not: everything, and how the simulation does."""
+        self.game.all_due = True
+        self.game.step()
+        self.game.diagnose()
+
+
+def main(args=None):
+    """Play until told to stop; returns the exit code."""
+    return run(SimNode, PROGRAM, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The wind generator: a new gust every ten seconds, published on `wind`."""
+import sys
+
+import numpy as np
+from geometry_msgs.msg import Vector3Stamped
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from ..wind.gusts import GustSettings, Gusts
+from .command_line import Program
+from .lifecycle import run
+from .older_rclpy import after_set
+from .parameter_values import fit, warn_of_unknown
+
+# Who subscribes late gets the last wind at once; only the newest one counts.
+WIND_QOS = QoSProfile(
+    depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+DEFAULTS = {**GustSettings()._asdict(), 'seed': -1, 'publish_rate': 10.0, 'frame_id': 'course'}
+MEANING = {
+    'speed': 'mean speed of the gusts, 10 m above the ground [m/s]',
+    'speed_spread': 'speeds are uniform in speed +- this, never below 0 [m/s]',
+    'direction': 'mean direction in which the air goes, from x towards y [rad]',
+    'direction_spread': 'directions are uniform in direction +- this [rad]',
+    'interval': 'time from one gust to the next [s of ROS time]',
+    'ramp': 'time over which a gust is eased in, at most interval [s]',
+    'turbulence': 'standard deviation of the turbulence over the speed of the gust; 0: none',
+    'seed': 'the same seed gives the same gusts; -1: fresh each start, and logged',
+    'publish_rate': 'messages a second of ROS time',
+    'frame_id': 'frame in which the wind is given',
+}
+RANGES = {
+    'speed': (0.0, 60.0), 'speed_spread': (0.0, 40.0), 'direction': (-6.2832, 6.2832),
+    'direction_spread': (0.0, 6.2832), 'interval': (0.1, 86400.0), 'ramp': (0.0, 3600.0),
+    'turbulence': (0.0, 1.0), 'seed': (-1, 2**63 - 1), 'publish_rate': (0.1, 1000.0),
+}
+READ_ONLY = ('seed', 'publish_rate')
+PROGRAM = Program(
+    'wind_node', 'Generates wind and publishes it on `wind`: a new gust every `interval`, eased in.',
+    {**{name: (default, MEANING[name]) for name, default in DEFAULTS.items()},
+     'use_sim_time': (False, 'whether to follow /clock')}, 'speed:=8')
+
+
+class WindNode(Node):
+    """
+    The node `wind_generator`.
+
+    Parameters
+    ----------
+    context : rclpy.context.Context, optional
+    namespace : str, optional
+    parameter_overrides : list of rclpy.parameter.Parameter, optional
+    """
+
+    def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
+        super().__init__('wind_generator', context=context, namespace=namespace,
+                         parameter_overrides=parameter_overrides)
+        fit(self, DEFAULTS)
+        given = {name: self._declare(name) for name in DEFAULTS}
+        warn_of_unknown(self, DEFAULTS)
+        self._gusts = Gusts(self._settings(), self._seed(given['seed']))
+        self._started_at = self.get_clock().now()
+        self._publisher = self.create_publisher(Vector3Stamped, 'wind', WIND_QOS)
+        after_set(self, self._take_over)
+        self._timer = self.create_timer(1.0 / given['publish_rate'], self._publish)
+
+    def _declare(self, name):
+        """Return the value of the parameter `name`, declared with its range and description."""
+        default, (least, greatest) = DEFAULTS[name], RANGES.get(name, (None, None))
+        descriptor = ParameterDescriptor(description=MEANING[name], read_only=name in READ_ONLY)
+        if isinstance(default, float):
+            descriptor.floating_point_range = [FloatingPointRange(from_value=least, to_value=greatest)]
+        elif isinstance(default, int):
+            descriptor.integer_range = [IntegerRange(from_value=least, to_value=greatest)]
+        return self.declare_parameter(name, default, descriptor).value
+
+    def _seed(self, wanted):
+        """Return the seed that is `wanted`, or a fresh one for -1; log it."""
+        seed = int(np.random.SeedSequence().generate_state(1)[0]) if wanted == -1 else wanted
+        self.get_logger().info(f'seed {seed}: the same gusts come again with -p seed:={seed}')
+        return seed
+
+    def _settings(self):
+        return GustSettings(**{name: self.get_parameter(name).value for name in GustSettings._fields})
+
+    def _time(self, now):
+        """
+        Return the time of the gusts [s]: simulated time itself, or wall time since the start.
+
+        So equal seeds blow equal winds whenever nodes join a simulation, and one that starts again
+        meets the same gusts again.
+        """
+        since = 0 if self.get_clock().ros_time_is_active else self._started_at.nanoseconds
+        return (now.nanoseconds - since) / 1e9
+
+    def _take_over(self, parameters):
+        if any(parameter.name in GustSettings._fields for parameter in parameters):
+            self._gusts.change(self._settings(), self._time(self.get_clock().now()))
+
+    def _publish(self):
+        now = self.get_clock().now()
+        message = Vector3Stamped()
+        message.header.stamp = now.to_msg()
+        message.header.frame_id = self.get_parameter('frame_id').value
+        vector = message.vector
+        vector.x, vector.y, vector.z = self._gusts.wind(self._time(now))
+        self._publisher.publish(message)
+
+
+def main(args=None):
+    """Run the wind generator until it is told to stop."""
+    return run(WindNode, PROGRAM, args)
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Published ways of simulating golf, to compare with."""

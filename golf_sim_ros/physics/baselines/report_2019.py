@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The model of the report "Golf Without Friends" (KTH 2019), as a baseline to measure against.
+
+Linear drag; wind as a force that grows with height; a ball is moved by semi-implicit Euler at 50 Hz
+and pushed out of whatever it has got into; an impact loses a percentage of the spin, which
+friction never turns into motion or back; sand absorbs everything. The report gives no numbers for
+drag, wind and loss of spin: those below are estimates.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from ..effects import Scene, flight_rates, protocol
+from ..effects.ferguson_lift import record as lift
+from ..effects.gravity import Gravity
+from ..effects.linear_drag import LinearDrag
+from ..engine.engines import best
+from ..geometry import surfaces
+from ..integrators.euler import SemiImplicitEuler
+from ..jit import borrowed, entry, kernel
+from ..mechanics.vector import ZERO, along, dot, length, put, scale, tangential, vector
+from ..properties.material import restitution
+from ..scene import kernel_model as model_
+from ..scene.kernel_model import Limits
+from ..scene.presets import Preset
+from ..simulation import checked_gusts, checked_strikes
+from ..state.ball import FLIGHT, REST
+from ..trajectory.shot_record import note_landing, tee_off
+from ..world import World
+
+STEP = 1 / 50  # s, Unity's default physics step
+KEPT_SPIN = 0.7  # of the spin, in an impact
+STOPPED = 0.1  # m/s on the ground
+LONGEST = 300.0  # s
+
+
+class WindForce(NamedTuple):
+    """Wind as a force: `velocity`, an array of 3 [m/s], times `rate` [1/s per m] times height."""
+
+    velocity: np.ndarray
+    rate: float = 0.018
+
+
+@protocol.acceleration.register(WindForce)
+def _acceleration(effect, flow):
+    return scale(effect.rate * max(flow.position[2], 0.0), vector(effect.velocity))
+
+
+@protocol.take_wind.register(WindForce)
+def _take_wind(effect, wind):
+    put(effect.velocity, wind)
+
+
+REPORT_2019 = Preset(SemiImplicitEuler(STEP), Limits(STOPPED, 1.0))
+
+
+def play_report_2019(course, velocities, spins, wind=ZERO):
+    """Play shots as the report would have, each from the tee.
+
+    Parameters
+    ----------
+    course : Course
+    velocities, spins : array_like, (n, 3)
+        [m/s], [rad/s]
+    wind : (float, float, float) or array_like (m, 4)
+        As in `simulate`; of gusts the first counts.
+
+    Returns
+    -------
+    landed_at, rest : ndarray, (n, 3)
+        Where the ball first touched the ground, and where it came to rest [m].
+    """
+    strikes, gusts = checked_strikes(velocities, spins), checked_gusts(wind)
+    records = (Gravity(), LinearDrag(), lift(Scene(course)), WindForce(gusts[0, 1:].copy()))
+    world = World(course)
+    # Sand is what gives nothing back.
+    absorbs = np.array([m.restitution.e0 == 0.0 for m in model_.materials(course)])
+    ends = best(_play)(model_.build(course, records, REPORT_2019), world._balls, strikes, absorbs)
+    return ends['landed_at'], ends['position']
+
+
+@entry
+def _play(model, ball, strikes, absorbs):
+    model = borrowed(model)
+    ends = np.empty(len(strikes), ball.dtype)
+    for i in range(len(strikes)):
+        ends[i] = ball[0]
+        one = ends[i]
+        put(one['velocity'], vector(strikes[i, 0:3]))
+        put(one['spin'], vector(strikes[i, 3:6]))
+        tee_off(one, 0.0)
+        one['phase'] = FLIGHT
+        time = 0.0
+        while one['phase'] == FLIGHT and time < LONGEST:
+            time += STEP
+            move(model, one)
+            push_out(model.land, one, time, absorbs)
+    return ends
+
+
+@kernel
+def move(model, ball):
+    """One step of semi-implicit Euler: velocity first. Writes position and velocity."""
+    x = vector(ball['position'])
+    v = vector(ball['velocity'])
+    force, _ = flight_rates(model.effects, model.land.ground, x, v, vector(ball['spin']))
+    v = along(v, STEP, force)
+    put(ball['velocity'], v)
+    put(ball['position'], along(x, STEP, v))
+
+
+@kernel
+def push_out(land, ball, time, absorbs):
+    """Push the ball out of what it is in, and let it bounce. Writes motion and phase."""
+    low, high = surfaces.around(vector(ball['position']), land.ball.radius)
+    part = surfaces.next_part(land.ground, 0, low, high)
+    while part >= 0:
+        x = vector(ball['position'])
+        distance, normal = surfaces.nearest(land.ground, part, x)
+        if distance < land.ball.radius and surfaces.touchable(land.ground, part, x):
+            put(ball['position'], along(x, land.ball.radius - distance, normal))
+            if dot(vector(ball['velocity']), normal) < 0.0:
+                note_landing(ball, time)
+                number = surfaces.material_of(land.ground, part, x)
+                rebound(ball, land.materials[number], absorbs[number], normal)
+                if length(vector(ball['velocity'])) < STOPPED:
+                    ball['phase'] = REST
+        part = surfaces.next_part(land.ground, part + 1, low, high)
+
+
+@kernel
+def rebound(ball, material, absorbs, normal):
+    """Restitution, friction against the velocity, loss of spin. Writes velocity and spin."""
+    v = vector(ball['velocity'])
+    approach = -dot(v, normal)
+    sideways = tangential(v, normal)
+    if absorbs:
+        put(ball['velocity'], ZERO)
+        put(ball['spin'], ZERO)
+        return
+    e = restitution(material, approach)
+    # Friction can only slow the ball: in the report it gives no torque.
+    lost = min(material['dynamic_friction'] * (1.0 + e) * approach, length(sideways))
+    left = 1.0 - lost / length(sideways) if length(sideways) > 0.0 else 0.0
+    put(ball['velocity'], along(scale(left, sideways), e * approach, normal))
+    put(ball['spin'], scale(KEPT_SPIN, vector(ball['spin'])))

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Broad phase: which balls are near each other, by a tree of axis-aligned boxes.
+
+Every ball's piece of path has a box. The boxes are the leaves of a binary tree, laid out depth first, so
+that looking for all that meet a box needs no stack: a node whose box is missed is skipped with all below
+it::
+
+        0                nodes  0 1 2 3 4     node 1 has the leaves 2 and 3;
+       / \\               skip   5 4 3 4 5     missing 1, go on at 4
+      1   4
+     / \\
+    2   3
+
+A ball that gets a new piece widens or narrows the boxes above its leaf; now and then the tree is built anew.
+"""
+from ..jit import kernel, shared
+from ..mechanics.vector import along, put, vector
+from ..state.ball import PILED, moves
+from . import ball_interactions
+from .conservative_advancement import box
+from .workspace import AGE, ASLEEP, Crowd
+
+ROOM = 1e-3  # m around the box of a ball of a pile, which seldom goes far
+
+
+@ball_interactions.prepare.register(Crowd)
+def _prepare(crowd, balls, radius):
+    crowd.count[ASLEEP] = 0
+    for i in range(len(balls)):
+        if balls[i]['leans']:
+            crowd.count[ASLEEP] = 1
+    if crowd.count[AGE] >= len(balls):
+        plant(crowd, balls, radius)
+
+
+@kernel
+def box_of(ball, radius, room):
+    """Box of the ball's piece, with `room` around it."""
+    if moves(ball['phase']) and ball['piled'] != PILED:
+        return box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
+    half = (radius + room, radius + room, radius + room)
+    here = vector(ball['origin']) if moves(ball['phase']) else vector(ball['position'])
+    there = along(here, 1.0, vector(ball['path'][5])) if moves(ball['phase']) else here
+    low = min(here[0], there[0]), min(here[1], there[1]), min(here[2], there[2])
+    high = max(here[0], there[0]), max(here[1], there[1]), max(here[2], there[2])
+    return along(low, -1.0, half), along(high, 1.0, half)
+
+
+@kernel
+def write_box(ball, node, radius):
+    """Write the box of the ball's piece into its leaf; in a pile with room for some steps."""
+    low, high = box_of(ball, radius, ROOM if ball['piled'] == PILED else 0.0)
+    put(node['low'], low)
+    put(node['high'], high)
+
+
+@kernel
+def is_boxed(ball, node, radius):
+    """Whether the box in the leaf of a ball of a pile still serves, and is not far too large."""
+    if ball['piled'] != PILED:
+        return False
+    low, high = box_of(ball, radius, 0.0)
+    for k in range(3):
+        if not (0.0 <= low[k] - node['low'][k] <= 3.0 * ROOM
+                and 0.0 <= node['high'][k] - high[k] <= 3.0 * ROOM):
+            return False
+    return True
+
+
+@kernel
+def unite(crowd, i):
+    """Write the box of node `i` from those below it."""
+    node = crowd.nodes[i]
+    one = crowd.nodes[i + 1]
+    other = crowd.nodes[one['skip']]
+    for k in range(3):
+        node['low'][k] = min(one['low'][k], other['low'][k])
+        node['high'][k] = max(one['high'][k], other['high'][k])
+
+
+@shared
+def plant(crowd, balls, radius):
+    """Build the tree anew, whatever it was before. Writes nodes, leaves, order, count."""
+    crowd.count[AGE] = 0
+    for i in range(len(balls)):
+        crowd.order[i] = i
+    crowd.nodes[0]['first'] = 0
+    crowd.nodes[0]['count'] = len(balls)
+    crowd.nodes[0]['parent'] = -1
+    for i in range(len(crowd.nodes)):
+        node = crowd.nodes[i]
+        n = node['count']
+        node['skip'] = i + 2 * n - 1
+        node['ball'] = -1
+        if n == 1:
+            number = crowd.order[node['first']]
+            node['ball'] = number
+            crowd.leaves[number] = i
+            write_box(balls[number], node, radius)
+            continue
+        half = n // 2
+        halve(crowd.order, balls, node['first'], node['first'] + n, node['first'] + half)
+        below(crowd.nodes[i + 1], i, node['first'], half)
+        below(crowd.nodes[i + 2 * half], i, node['first'] + half, n - half)
+    for back in range(1, len(crowd.nodes) + 1):
+        i = len(crowd.nodes) - back
+        if crowd.nodes[i]['ball'] < 0:
+            unite(crowd, i)
+
+
+@kernel
+def below(node, parent, first, count):
+    """Give a node its parent and its balls."""
+    node['parent'] = parent
+    node['first'] = first
+    node['count'] = count
+
+
+@kernel
+def halve(order, balls, first, last, middle):
+    """Put balls `first` to `last` in order along their longest axis, as far as `middle` parts them."""
+    axis = 0
+    widest = -1.0
+    for k in range(3):
+        low = 1e300
+        high = -1e300
+        for i in range(first, last):
+            low = min(low, balls[order[i]]['position'][k])
+            high = max(high, balls[order[i]]['position'][k])
+        if high - low > widest:
+            widest = high - low
+            axis = k
+    last -= 1
+    while first < last:  # Hoare's selection
+        pivot = balls[order[(first + last) // 2]]['position'][axis]
+        i = first
+        j = last
+        while i <= j:
+            while balls[order[i]]['position'][axis] < pivot:
+                i += 1
+            while balls[order[j]]['position'][axis] > pivot:
+                j -= 1
+            if i <= j:
+                order[i], order[j] = order[j], order[i]
+                i += 1
+                j -= 1
+        if middle <= j:
+            last = j
+        elif middle >= i:
+            first = i
+        else:
+            break
+
+
+@ball_interactions.note.register(Crowd)
+def _note(crowd, balls, i, radius):
+    renew(crowd, balls, i, radius)
+
+
+@shared
+def renew(crowd, balls, i, radius):
+    """Tell ball `i`'s new piece. Writes the tree."""
+    leaf = crowd.leaves[i]
+    if is_boxed(balls[i], crowd.nodes[leaf], radius):
+        return
+    crowd.count[AGE] += 1
+    if crowd.count[AGE] > len(balls):
+        plant(crowd, balls, radius)
+        return
+    write_box(balls[i], crowd.nodes[leaf], radius)
+    at = crowd.nodes[leaf]['parent']
+    while at >= 0:
+        unite(crowd, at)
+        at = crowd.nodes[at]['parent']
+
+
+@kernel
+def next_node(crowd, at, low, high):
+    """First leaf from node `at` on that meets the box from `low` to `high`, or -1."""
+    while at < len(crowd.nodes):
+        node = crowd.nodes[at]
+        if (node['low'][0] > high[0] or node['high'][0] < low[0] or node['low'][1] > high[1]
+                or node['high'][1] < low[1] or node['low'][2] > high[2] or node['high'][2] < low[2]):
+            at = node['skip']
+        elif node['ball'] >= 0:
+            return at
+        else:
+            at += 1
+    return -1

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: Apache-2.0
+"""When a ball's centre first comes into water, along a segment: never stepped over.
+
+To be in water is to be below its level and inside its outline. It is safe to advance as long as either must
+still fail.
+"""
+from ..geometry.polygon import beside_region
+from ..jit import kernel, shared
+from ..mechanics.vector import length
+from ..trajectory.segment import greatest_acceleration, least_acceleration, position, span_along, velocity
+from .conservative_advancement import MOST_STEPS, TANGENTIAL, TOUCH, safe_advance
+
+UP = (0.0, 0.0, 1.0)
+
+
+@shared
+def first_dip(waters, ball, until):
+    """First time, at most `until`, at which the piece enters water; number of that water, from 1, or 0."""
+    best = until
+    who = 0
+    lowest, _ = span_along(ball, 2)
+    for i in range(len(waters.levels)):
+        if lowest < waters.levels[i]:
+            time, dips = dip(waters, i, ball, best)
+            if dips:
+                best = time
+                who = i + 1
+    return best, who
+
+
+@kernel
+def dip(waters, i, ball, until):
+    """First time before `until` at which the piece enters water `i`, and whether it does."""
+    bend = greatest_acceleration(ball)
+    falling = max(0.0, -least_acceleration(ball, UP))
+    time = 0.0
+    for _ in range(MOST_STEPS):
+        place = position(ball, time)
+        sure = max(still_above(place[2] - waters.levels[i], velocity(ball, time)[2], falling),
+                   still_beside(beside_region(waters.outlines, i, place[0], place[1]),
+                                length(velocity(ball, time)), bend))
+        if sure <= 0.0:
+            return time, True
+        time += max(sure, 1e-12)
+        if time >= until:
+            break
+    return until, False
+
+
+@kernel
+def still_above(gap, rate, falling):
+    """Time for which a centre at height `gap` over the level stays there; 0 below, or on it and sinking."""
+    if gap < -TOUCH or gap <= TOUCH and rate < -TANGENTIAL:
+        return 0.0
+    return safe_advance(gap, max(rate, 0.0) if gap <= TOUCH else rate, falling)
+
+
+@kernel
+def still_beside(away, speed, bend):
+    """Time for which a centre `away` from the outline in plan, of that `speed`, stays outside."""
+    return safe_advance(away, -speed, bend) if away > TOUCH else 0.0

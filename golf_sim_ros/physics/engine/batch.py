@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Many shots, each from the tee: which engine plays them, and their ends."""
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import jit
+from ..jit.build import READY
+from ..response.contact_set import disperse
+from ..result import summary
+from ..scene.course_record import Course
+from ..state.ball import ENDED
+from ..trajectory.shot_record import NOT_FINITE, fail, keep_end, tee_off
+from ..world import World
+from .engines import LOG, Program
+from .event_loop import play_all
+
+PART = 5000  # shots between two looks at the progress
+FEW_SHOTS, MANY_SHOTS = 20, 200  # plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute
+SHORT_WAIT = 5.0  # s: loading is over by then
+ANY_SHOT = np.array([[1.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
+
+
+class Batch(NamedTuple):
+    """What many shots have in common; `engine`: 'python' or 'compiled'."""
+
+    course: Course
+    gusts: np.ndarray
+    effects: object
+    accuracy: object
+    engine: str
+
+
+def batch_engine(batch, shots):
+    """The engine that pays for so many `shots`; the compiled one is loaded then."""
+    if shots < FEW_SHOTS:
+        return 'python'
+    program = Program.of(f'batch {world_of(batch).types}')
+    if shots < MANY_SHOTS and program.build is None and not program.is_kept:
+        return 'python'
+    build = program.built(True, played, (batch._replace(engine='compiled'), ANY_SHOT))
+    if not build.wait(SHORT_WAIT):
+        LOG.warning('compiling the physics for %d shots, up to a minute, once a machine', shots)
+        build.wait()
+    if build.state != READY:
+        LOG.warning('%d shots in plain Python, which takes some 100 times as long: %s', shots, build.reason)
+        return 'python'
+    return 'compiled'
+
+
+def world_of(batch):
+    """`World` of a batch. The strongest gust decides whether there is wind at all."""
+    wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
+    return World(batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=wind, engine='python')
+
+
+def played(batch, strikes, progress=None):
+    """Ends of the `strikes` of a batch; what is off stays off, so nothing dormant is compiled in."""
+    world = world_of(batch)
+    play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
+    parts = np.array_split(strikes, max(1, len(strikes) // PART))
+    scene = world._model, world._balls, batch.gusts, world._crowd, world._log
+    found = [ends(play, scene, part)
+             for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
+    return summary(np.concatenate(found), batch.course.hole, world._materials)
+
+
+def ends(play, scene, strikes):
+    """Ends of `strikes`, an `ENDED` array. Where plain Python refuses to calculate, that shot has failed."""
+    model, balls, gusts, crowd, log = scene
+    try:
+        with np.errstate(all='ignore'):
+            return play(model, balls, strikes, gusts, crowd, log)
+    except (ArithmeticError, ValueError):
+        disperse(crowd)
+        if len(strikes) > 1:
+            return np.concatenate([ends(play, scene, part) for part in np.array_split(strikes, 2)])
+    ball, end = balls[0].copy(), np.empty(1, ENDED)
+    ball['velocity'], ball['spin'] = strikes[0, :3], strikes[0, 3:]
+    tee_off(ball, 0.0)
+    fail(ball, 0, 0.0, NOT_FINITE, log)
+    keep_end(ball, end[0])
+    return end
+
+
+def progress_bar(parts, total):
+    """`parts` with a bar on a terminal, from two seconds on, if tqdm is installed."""
+    try:
+        from tqdm import tqdm
+    except ImportError:
+        return parts
+    return tqdm(parts, total=total, desc='shots', unit='part', delay=2.0, disable=None)

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Ground: a file that has ``SHAPES`` and ``build`` is a kind of ground, found by itself.
+
+``SHAPES`` are the record types that a course may hold, ``build(shapes, material_number)`` turns
+those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape in plan,
+sequences of (x, y) or ``Circle``, and ``heights(shape)`` its lowest and highest ground. Every course
+gets every kind, empty ones too, so that a new course compiles nothing. ``NUMBERED`` says whose parts are
+numbered first: recorded play holds their numbers, so it stays for good. A kind without it comes last.
+"""
+import importlib
+import pkgutil
+
+import numpy as np
+
+from .polygon import Circle, polygons, regions, sides
+from .surfaces import BORDER, Ground
+from .water_surface import waters
+from .zone import zones_of
+
+_MODULES = [importlib.import_module(f'{__name__}.{module.name}') for module in pkgutil.iter_modules(__path__)]
+KINDS = sorted((module for module in _MODULES if hasattr(module, 'SHAPES')),
+               key=lambda kind: getattr(kind, 'NUMBERED', len(_MODULES)))
+
+
+def build(shapes, zones, bounds, hole, material_number, water=()):
+    """`Ground` of `shapes`, ground and obstacles.
+
+    Parameters
+    ----------
+    shapes : sequence of shapes
+    zones : sequence of Zone, or of (Material, outline)
+    bounds : outline or None
+    hole : (x, y, radius, lowest, highest, bottom) or None
+        Circle that is cut into ground at those heights, and how far down; see `cup.opening`.
+    material_number : dict of Material to int
+    water : sequence of Water
+
+    Raises
+    ------
+    TypeError
+        A shape is of no known kind.
+    """
+    known = tuple(shape for kind in KINDS for shape in kind.SHAPES)
+    for shape in shapes:
+        if not isinstance(shape, known):
+            raise TypeError(f'{type(shape).__name__} is not a ground shape; known: '
+                            + ', '.join(sorted(s.__name__ for s in known)))
+    by_kind = [(kind, [s for s in shapes if isinstance(s, kind.SHAPES)]) for kind in KINDS]
+    kinds = tuple(kind.build(own, material_number) for kind, own in by_kind)
+    outlines = [o for kind, own in by_kind for s in own for o in kind.plan(s)]
+    zones = zones_of(zones)
+    outlines += [outline for zone in zones for outline in (zone.polygon, *zone.cut)]
+    heights = [kind.heights(s) for kind, own in by_kind for s in own]
+    heights += [(pond.level, pond.level) for pond in water]
+    return Ground(kinds, _borders(outlines),
+                  regions([zone.polygon for zone in zones], [zone.cut for zone in zones]),
+                  np.array([material_number[zone.material] for zone in zones], np.int64),
+                  polygons([bounds] if bounds else []), np.array(hole or (), float), waters(water),
+                  float(min((low for low, _ in heights), default=0.0)),
+                  float(max((high for _, high in heights), default=0.0)))
+
+
+def _borders(outlines):
+    rows = []
+    for outline in outlines:
+        if isinstance(outline, Circle):
+            rows.append(((outline.x, outline.y), (1.0, 0.0), 0.0, outline.radius))
+            continue
+        for start, end in sides(outline):
+            start, end = np.asarray(start, float), np.asarray(end, float)
+            size = np.linalg.norm(end - start)
+            if size > 1e-9:  # an upright patch has no width in plan
+                rows.append((start, (end - start) / size, size, 0.0))
+    return np.array(rows, BORDER)

@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The hole: a rim that follows the ground around it, an upright wall below, a level bottom.
+
+Parts come in pairs: the side, rim and wall in one, seen from within and above; and the bottom. ::
+
+    ground ____.  rim                .____       z(phi) = a0 + a1 cos + b1 sin + a2 cos 2 phi + b2 sin 2 phi
+               |\\                   /|
+               | n                 n |           over the wall's top the rim is nearest, below it the wall
+               |wall                 |
+               '------- bottom ------'
+"""
+from math import atan2, cos, hypot, pi, sin, sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import kernel
+from ..mechanics.vector import along, dot, length, scale, sub, tangential
+from ..properties.material import Material, Restitution
+from . import surface_protocol, surfaces
+from .plane_patch import ROUNDING, SAME_HEIGHT, meets
+from .polygon import Circle
+
+RADIUS = 0.054  # m: Rules of Golf, definition of hole: 108 mm across
+DEPTH = 0.1016  # m: and at least that deep
+SAMPLES = 64  # of the ground's height around the rim
+UNEVEN = 0.005  # m: ground that strays farther from the rim's curve is no place for a hole
+MOST_STEPS = 30  # of Newton's method
+MOST_TURN = 0.3  # rad in one of them
+
+# A plastic liner in soil. Estimates: between turf, 0.5, and a hard plastic plate, 0.8, and well damped;
+# friction as of plastic on plastic.
+CUP = Material('cup', Restitution(0.4), 0.0, 0.3, 0.25, 0.1, 0.002, 0.0, color=(0.9, 0.9, 0.9))
+
+CUPS = np.dtype([
+    ('center', 'f8', 2), ('radius', 'f8'), ('rim', 'f8', 5), ('bottom', 'f8'), ('hollow', 'f8'),
+    ('side_material', 'i8'), ('bottom_material', 'i8'), ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+
+
+class Cup(NamedTuple):
+    """A hole of `radius` around `x`, `y`, its bottom `depth` below the lowest of the rim [m].
+
+    `rim` holds a0, a1, b1, a2, b2 of the rim's height; `side` is the material of rim and wall.
+    """
+
+    x: float
+    y: float
+    rim: tuple
+    side: Material
+    material: Material = CUP
+    depth: float = DEPTH
+    radius: float = RADIUS
+
+
+class Cups(NamedTuple):
+    """All cups of a course: none, or the one of its hole."""
+
+    cups: np.ndarray
+
+
+def cup_in(ground, x, y, names, material):
+    """`Cup` at `x`, `y` with a rim along `ground`, a `Ground` without hole.
+
+    `names` are the materials by number; rim and wall are of the ground's, the bottom of `material`.
+
+    Raises
+    ------
+    ValueError
+        There is no ground all round, or it is too uneven.
+    """
+    angles = 2 * pi * np.arange(SAMPLES) / SAMPLES
+    found = [surfaces.look_down(ground, x + RADIUS * cos(a), y + RADIUS * sin(a)) for a in angles]
+    if any(part < 0 for _, part, _ in found):
+        raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round')
+    z = np.array([height for height, _, _ in found])
+    waves = np.array([np.ones(SAMPLES), np.cos(angles), np.sin(angles),
+                      np.cos(2 * angles), np.sin(2 * angles)])
+    rim = np.linalg.lstsq(waves.T, z, rcond=None)[0]
+    if np.abs(rim @ waves - z).max() > UNEVEN:
+        raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round that is even to {UNEVEN:g} m')
+    return Cup(float(x), float(y), tuple(rim.tolist()), names[found[0][2]], material)
+
+
+def heights_of_rim(cup):
+    """Bounds of the height of a cup's rim, the exact ones where it lies in a plane."""
+    a0, a1, b1, a2, b2 = cup.rim
+    reach = hypot(a1, b1) + hypot(a2, b2)
+    return a0 - reach, a0 + reach
+
+
+def opening(cup):
+    """x, y, radius, least and greatest height of the rim, height of the bottom: see `Ground.hole`."""
+    lowest, highest = heights_of_rim(cup)
+    return cup.x, cup.y, cup.radius, lowest, highest, lowest - cup.depth
+
+
+def build(shapes, material_number):
+    """`Cups` of `Cup` records; `material_number` maps a material to its row."""
+    rows = []
+    for cup in shapes:
+        x, y, radius, _, highest, bottom = opening(cup)
+        _, a1, b1, a2, b2 = cup.rim
+        waving = hypot(a1, b1) + 4.0 * hypot(a2, b2)
+        rows.append(((x, y), radius, cup.rim, bottom, hypot(radius, waving) / radius ** 2,
+                     material_number[cup.side], material_number[cup.material],
+                     (x - radius, y - radius, bottom), (x + radius, y + radius, highest)))
+    return Cups(np.array(rows, CUPS))
+
+
+def plan(shape):
+    """Its rim, across which the ground ends."""
+    return [Circle(shape.x, shape.y, shape.radius)]
+
+
+def heights(shape):
+    """Height of the bottom, and the greatest of the rim."""
+    _, _, _, _, highest, bottom = opening(shape)
+    return bottom, highest
+
+
+@kernel
+def rim_height(cup, c, s):
+    """Height of the rim in the direction of cosine `c` and sine `s`."""
+    w = cup['rim']
+    return w[0] + w[1] * c + w[2] * s + w[3] * (c * c - s * s) + w[4] * 2.0 * s * c
+
+
+@kernel
+def rim_at(cup, angle):
+    """Place of the rim at `angle`, and its first and second derivative by it."""
+    c = cos(angle)
+    s = sin(angle)
+    r = cup['radius']
+    w = cup['rim']
+    twice = c * c - s * s
+    climb = -w[1] * s + w[2] * c - 4.0 * w[3] * s * c + 2.0 * w[4] * twice
+    bend = -w[1] * c - w[2] * s - 4.0 * w[3] * twice - 8.0 * w[4] * s * c
+    place = (cup['center'][0] + r * c, cup['center'][1] + r * s, rim_height(cup, c, s))
+    return place, (-r * s, r * c, climb), (-r * c, -r * s, bend)
+
+
+@kernel
+def first_guess(cup, point):
+    """Angle near that of the rim's nearest place: the point's own, near the axis the best of eight."""
+    dx = point[0] - cup['center'][0]
+    dy = point[1] - cup['center'][1]
+    best = atan2(dy, dx)
+    if dx * dx + dy * dy > 0.25 * cup['radius'] * cup['radius']:
+        return best
+    least = 1e300
+    for i in range(8):
+        place, _, _ = rim_at(cup, i * pi / 4.0)
+        away = length(sub(point, place))
+        if away < least:
+            least = away
+            best = i * pi / 4.0
+    return best
+
+
+@kernel
+def nearest_on_rim(cup, point):
+    """Angle of the rim's place nearest to `point`: Newton's method on the distance's square."""
+    angle = first_guess(cup, point)
+    for _ in range(MOST_STEPS):
+        place, ahead, bend = rim_at(cup, angle)
+        offset = sub(place, point)
+        fall = -dot(ahead, offset)
+        rise = dot(ahead, ahead) + dot(bend, offset)
+        # Where it bends the wrong way, as far downhill as allowed.
+        step = fall / rise if rise > 0.0 else (MOST_TURN if fall > 0.0 else -MOST_TURN)
+        step = min(max(step, -MOST_TURN), MOST_TURN)
+        angle += step
+        if abs(step) <= 1e-15:
+            break
+    return angle
+
+
+@kernel
+def from_axis(cup, point):
+    """Distance of `point` from the axis, and cosine and sine of its direction."""
+    dx = point[0] - cup['center'][0]
+    dy = point[1] - cup['center'][1]
+    away = sqrt(dx * dx + dy * dy)
+    if away == 0.0:
+        return 0.0, 1.0, 0.0
+    return away, dx / away, dy / away
+
+
+@surface_protocol.parts.register(Cups)
+def _parts(kind):
+    return 2 * len(kind.cups)
+
+
+@surface_protocol.next_part.register(Cups)
+def _next_part(kind, part, low, high):
+    while part < 2 * len(kind.cups):
+        cup = kind.cups[part // 2]
+        if meets(cup, low, high) and (part % 2 == 0 or low[2] <= cup['bottom']):
+            break
+        part += 1
+    return part
+
+
+@surface_protocol.nearest.register(Cups)
+def _nearest(kind, part, point):
+    cup = kind.cups[part // 2]
+    away, c, s = from_axis(cup, point)
+    if part % 2 == 1:
+        over = point[2] - cup['bottom']
+        beyond = max(away - cup['radius'], 0.0)
+        distance = sqrt(over * over + beyond * beyond)
+        if distance == 0.0:
+            return 0.0, (0.0, 0.0, 1.0)
+        return distance, (beyond * c / distance, beyond * s / distance, over / distance)
+    if point[2] <= rim_height(cup, c, s):
+        if away > cup['radius']:
+            return away - cup['radius'], (c, s, 0.0)
+        return cup['radius'] - away, (-c, -s, 0.0)
+    place, _, _ = rim_at(cup, nearest_on_rim(cup, point))
+    offset = sub(point, place)
+    return length(offset), scale(1.0 / length(offset), offset)
+
+
+@surface_protocol.turn.register(Cups)
+def _turn(kind, part, point, velocity):
+    cup = kind.cups[part // 2]
+    if part % 2 == 1:
+        return 0.0, 0.0, 0.0
+    away, c, s = from_axis(cup, point)
+    if point[2] <= rim_height(cup, c, s):
+        around = (-s, c, 0.0)
+        return scale(-dot(velocity, around) / max(away, ROUNDING), around)
+    place, ahead, bend = rim_at(cup, nearest_on_rim(cup, point))
+    offset = sub(point, place)
+    distance = length(offset)
+    rate = dot(ahead, velocity) / (dot(ahead, ahead) - dot(bend, offset))
+    relative = along(velocity, -rate, ahead)
+    return scale(1.0 / distance, tangential(relative, scale(1.0 / distance, offset)))
+
+
+@surface_protocol.hollow.register(Cups)
+def _hollow(kind, part):
+    # Within 1 / (2 K) of a curve of curvature at most K the distance's bend is at most 2 K v^2.
+    return kind.cups[part // 2]['hollow'] if part % 2 == 0 else 0.0
+
+
+@surface_protocol.touchable.register(Cups)
+def _touchable(kind, part, point):
+    cup = kind.cups[part // 2]
+    if part % 2 == 1:
+        return point[2] >= cup['bottom']
+    away, c, s = from_axis(cup, point)
+    return away <= cup['radius'] or point[2] > rim_height(cup, c, s)
+
+
+@surface_protocol.flat_under.register(Cups)
+def _flat_under(kind, part, point):
+    cup = kind.cups[part // 2]
+    away, _, _ = from_axis(cup, point)
+    return part % 2 == 1 and away <= cup['radius'] + ROUNDING
+
+
+@surface_protocol.in_plane.register(Cups)
+def _in_plane(kind, part, point, normal):
+    cup = kind.cups[part // 2]
+    if part % 2 == 1:
+        return abs(normal[2]) > 1.0 - 1e-12 and abs(point[2] - cup['bottom']) <= SAME_HEIGHT
+    for i in range(5):  # five places decide five coefficients
+        place, _, _ = rim_at(cup, i * 2.0 * pi / 5.0)
+        if abs(dot(sub(place, point), normal)) > SAME_HEIGHT:
+            return False
+    return True
+
+
+@surface_protocol.is_ground.register(Cups)
+def _is_ground(kind):
+    return False
+
+
+@surface_protocol.sort.register(Cups)
+def _sort(kind, part):
+    return surface_protocol.CUP
+
+
+@surface_protocol.material_of.register(Cups)
+def _material_of(kind, part):
+    cup = kind.cups[part // 2]
+    return cup['side_material'] if part % 2 == 0 else cup['bottom_material']
+
+
+SHAPES = (Cup,)
+NUMBERED = 0

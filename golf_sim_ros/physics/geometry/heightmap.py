@@ -1,0 +1,417 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Curved ground from heights on a grid: cells, the walls around them, and every map as a whole.
+
+Parts are numbered cells first, of all maps, row by row; then walls, one a cell's side on the outline, that go
+down without end; then maps. A map as a whole is what a ball rolls on where its hollows are wide; nobody ever
+meets it, only cells and walls. On a map with a narrow hollow a ball rolls from cell to cell.
+
+::
+
+    heights[iy, ix]    ^ y
+                       |  6 7 8      cells of a map with 3 x 3
+      origin: of       |  3 4 5      walls: along y least, y greatest,
+      heights[0, 0]    o--0-1-2-> x         x least, x greatest
+"""
+from math import floor
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import kernel, shared
+from ..mechanics.vector import ZERO, dot, length, scale, sub, tangential, unit
+from ..properties.material import Material
+from . import surface_protocol
+from .bicubic import GRID, bicubic, bounds, cell_at, nodes
+from .closest_point import curvatures, foot, held, pulls
+from .plane_patch import SAME_HEIGHT
+
+WIDE = 10.0  # 1/m: hollows bent less than this hold a ball of 5 cm at one place only, with room to spare
+ON_SEAM = 1e-9  # rad: so far from upright above a seam a ball is above both cells
+
+
+class Heightmap(NamedTuple):
+    """A surface through heights on a grid, solid below.
+
+    ``heights[iy][ix]`` [m], at least 2 x 2: an array, or rows of numbers; ``origin``: x, y of
+    ``heights[0][0]``; ``spacing`` [m] of the grid along x and y.
+    """
+
+    heights: tuple
+    origin: tuple = (0.0, 0.0)
+    spacing: float = 1.0
+    material: Material = Material()
+
+
+class Maps(NamedTuple):
+    """All height maps of a course.
+
+    ``grids``: a row a map; ``nodes``: height and derivatives by x, y and both, per grid step; ``cells``:
+    least and greatest height, bounds on the curvature of hollows and on any curvature [1/m].
+    """
+
+    grids: np.ndarray
+    nodes: np.ndarray
+    cells: np.ndarray
+
+
+def build(shapes, material_number):
+    """`Maps` of `Heightmap` records; `material_number` maps a material to its row."""
+    rows, tables, cells = [], [np.empty((0, 4))], [np.empty((0, 4))]
+    counts = [(len(shape.heights) - 1, len(shape.heights[0]) - 1) for shape in shapes]
+    node = cell = 0
+    wall = sum(ny * nx for ny, nx in counts)
+    number = wall + sum(2 * (nx + ny) for ny, nx in counts)
+    for shape, (ny, nx) in zip(shapes, counts):
+        table, limits = spline(shape)
+        hollow = limits[..., 2].max()
+        rows.append((shape.origin, shape.spacing, nx, ny, node, cell, wall, number,
+                     material_number[shape.material], hollow < WIDE, limits[..., 1].max(), hollow))
+        tables.append(table.reshape(-1, 4))
+        cells.append(limits.reshape(-1, 4))
+        node, cell, wall, number = node + table[..., 0].size, cell + nx * ny, wall + 2 * (nx + ny), number + 1
+    return Maps(np.array(rows, GRID), np.concatenate(tables), np.concatenate(cells))
+
+
+def spline(shape):
+    """Node values and bounds of a map's cells."""
+    table = nodes(np.array(shape.heights, float))
+    return table, bounds(table, shape.spacing)
+
+
+def corners(shape):
+    """Least and greatest x and y of a map's outline."""
+    size = shape.spacing * (np.array((len(shape.heights[0]), len(shape.heights))) - 1)
+    (x, y), (width, depth) = shape.origin, size
+    return (x, y), (x + width, y + depth)
+
+
+def plan(shape):
+    """The outline in plan, a rectangle."""
+    (x0, y0), (x1, y1) = corners(shape)
+    return [((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
+
+
+def heights(shape):
+    """Least and greatest height."""
+    limits = spline(shape)[1]
+    return float(limits[..., 0].min()), float(limits[..., 1].max())
+
+
+SHAPES = (Heightmap,)
+NUMBERED = 2
+
+
+@surface_protocol.parts.register(Maps)
+def _parts(kind):
+    n = len(kind.grids)
+    return kind.grids[n - 1]['number'] + 1 if n > 0 else 0
+
+
+@shared
+def grid_of(kind, part):
+    """Number of the map that `part` belongs to."""
+    for i in range(len(kind.grids)):
+        grid = kind.grids[i]
+        if (part < grid['first_cell'] + grid['nx'] * grid['ny']
+                or len(kind.cells) <= part < grid['first_wall'] + 2 * (grid['nx'] + grid['ny'])
+                or part == grid['number']):
+            return i
+    return 0
+
+
+@shared
+def wall_side(grid, part):
+    """Cell of a wall, and its side: 0 at the least y, 1 at the greatest, 2 and 3 those of x."""
+    k = part - grid['first_wall']
+    nx = grid['nx']
+    ny = grid['ny']
+    if k < nx:
+        return k, 0
+    if k < 2 * nx:
+        return (ny - 1) * nx + k - nx, 1
+    if k < 2 * nx + ny:
+        return (k - 2 * nx) * nx, 2
+    return (k - 2 * nx - ny) * nx + nx - 1, 3
+
+
+@kernel
+def wall_number(grid, side, k):
+    """Part number of wall `k` of a side."""
+    before = (side > 0) * grid['nx'] + (side > 1) * grid['nx'] + (side > 2) * grid['ny']
+    return grid['first_wall'] + before + k
+
+
+@shared
+def bounds_of(kind, part):
+    """Row of the bounds of the cell that is `part`, or that the wall `part` is a side of."""
+    if part < len(kind.cells):
+        return part
+    grid = kind.grids[grid_of(kind, part)]
+    cell, _ = wall_side(grid, part)
+    return grid['first_cell'] + cell
+
+
+@shared
+def rectangle(kind, grid, part):
+    """Rectangle in plan [m] of `part` from the map's origin: of a wall, it has no width."""
+    size = grid['spacing']
+    if part == grid['number']:
+        return 0.0, 0.0, grid['nx'] * size, grid['ny'] * size
+    side = -1
+    cell = part - grid['first_cell']
+    if part >= len(kind.cells):
+        cell, side = wall_side(grid, part)
+    column = cell % grid['nx']
+    row = cell // grid['nx']
+    x0 = (column + 1 if side == 3 else column) * size
+    y0 = (row + 1 if side == 1 else row) * size
+    return x0, y0, (column if side == 2 else column + 1) * size, (row if side == 0 else row + 1) * size
+
+
+@shared
+def place_under(kind, grid, part, point):
+    """Nearest place of the surface of `part`, on a wall its upper edge, and `bicubic` there."""
+    bend = 0.0
+    if part < len(kind.cells):
+        cell = kind.cells[part]
+        bend = cell[3] * max(point[2] - cell[0], cell[1] - point[2])
+    elif part < grid['number']:
+        cell = kind.cells[bounds_of(kind, part)]
+        bend = cell[3] * max(point[2] - cell[0], cell[1] - point[2])
+    return foot(kind.nodes, grid, rectangle(kind, grid, part), bend, point)
+
+
+@kernel
+def from_origin(grid, point):
+    """`point` with x and y from the map's origin."""
+    return point[0] - grid['origin'][0], point[1] - grid['origin'][1], point[2]
+
+
+@shared
+def beside_wall(kind, grid, part, local):
+    """Whether a point is nearest to a wall's upright face, and x, y of the place there."""
+    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    x = min(max(local[0], x0), x1)
+    y = min(max(local[1], y0), y1)
+    return local[2] < bicubic(kind.nodes, grid, x, y)[0], x, y
+
+
+@kernel
+def is_wall(kind, grid, part):
+    """Whether `part` is a wall."""
+    return len(kind.cells) <= part < grid['number']
+
+
+@surface_protocol.nearest.register(Maps)
+def _nearest(kind, part, point):
+    grid = kind.grids[grid_of(kind, part)]
+    local = from_origin(grid, point)
+    if is_wall(kind, grid, part):
+        beside, x, y = beside_wall(kind, grid, part, local)
+        if beside:
+            offset = (local[0] - x, local[1] - y, 0.0)
+            return length(offset), unit(offset, outward(kind, grid, part))
+    x, y, at = place_under(kind, grid, part, local)
+    offset = (local[0] - x, local[1] - y, local[2] - at[0])
+    upright = unit((-at[1], -at[2], 1.0), ZERO)
+    sign = -1.0 if is_below(kind, grid, part, local, offset, (x, y), at) else 1.0
+    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    if x0 < x < x1 and y0 < y < y1:  # the slopes tell the normal better than a short offset
+        away = dot(offset, upright)
+        facing = -1.0 if away < 0.0 < sign else 1.0  # past a wall, towards the back
+        return facing * away, scale(facing, upright)
+    return sign * length(offset), unit(scale(sign, offset), upright)
+
+
+@kernel
+def is_over(grid, local):
+    """Whether a point is within the map's outline, seen from above."""
+    size = grid['spacing']
+    return 0.0 <= local[0] <= grid['nx'] * size and 0.0 <= local[1] <= grid['ny'] * size
+
+
+@shared
+def is_below(kind, grid, part, local, offset, place, at):
+    """Whether a point is under `part`, a cell or a map, whose nearest `place` is `offset` away.
+
+    Past a wall a point is outside, though it be nearest to the back of ground that falls away from there.
+    """
+    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    if x0 < place[0] < x1 and y0 < place[1] < y1:
+        return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over(grid, local)
+    return (x0 < local[0] < x1 and y0 < local[1] < y1
+            and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0])
+
+
+@shared
+def outward(kind, grid, part):
+    """Unit vector out of a wall."""
+    _, side = wall_side(grid, part)
+    if side < 2:
+        return 0.0, -1.0 if side == 0 else 1.0, 0.0
+    return -1.0 if side == 2 else 1.0, 0.0, 0.0
+
+
+@surface_protocol.turn.register(Maps)
+def _turn(kind, part, point, velocity):
+    # The place moves so that it stays nearest; where a border holds it, only along that.
+    grid = kind.grids[grid_of(kind, part)]
+    local = from_origin(grid, point)
+    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    if is_wall(kind, grid, part):
+        beside, x, y = beside_wall(kind, grid, part, local)
+        if beside:
+            offset = (local[0] - x, local[1] - y, 0.0)
+            moving = (velocity[0] if x0 < x < x1 else 0.0, velocity[1] if y0 < y < y1 else 0.0, velocity[2])
+            return turned(sub(velocity, moving), offset)
+    x, y, at = place_under(kind, grid, part, local)
+    offset = (local[0] - x, local[1] - y, local[2] - at[0])
+    gx, gy = pulls(local, x, y, at)
+    fixed_x = x0 == x1 or held(x, x0, x1, gx)
+    fixed_y = y0 == y1 or held(y, y0, y1, gy)
+    a, b, c = curvatures(local, at)
+    p = velocity[0] + at[1] * velocity[2]
+    q = velocity[1] + at[2] * velocity[2]
+    dx = 0.0
+    dy = 0.0
+    if fixed_x and not fixed_y:
+        dy = q / c
+    elif fixed_y and not fixed_x:
+        dx = p / a
+    elif not fixed_x and not fixed_y:
+        dx = (c * p - b * q) / (a * c - b * b)
+        dy = (a * q - b * p) / (a * c - b * b)
+    rate = sub(velocity, (dx, dy, at[1] * dx + at[2] * dy))
+    sign = -1.0 if is_below(kind, grid, part, local, offset, (x, y), at) else 1.0
+    return scale(sign, turned(rate, offset))
+
+
+@kernel
+def turned(rate, offset):
+    """Rate of change of the unit vector along `offset`, which changes by `rate`."""
+    away = length(offset)
+    return scale(1.0 / away, tangential(rate, scale(1.0 / away, offset))) if away > 0.0 else ZERO
+
+
+@surface_protocol.touchable.register(Maps)
+def _touchable(kind, part, point):
+    # Where the surface goes on past the border that holds the nearest place, a neighbour is nearer. A wall's
+    # upper edge is its cell's.
+    grid = kind.grids[grid_of(kind, part)]
+    local = from_origin(grid, point)
+    if is_wall(kind, grid, part):
+        return beside_wall(kind, grid, part, local)[0]
+    if part == grid['number']:
+        return True
+    x, y, at = place_under(kind, grid, part, local)
+    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    gx, gy = pulls(local, x, y, at)
+    free = ON_SEAM * length((local[0] - x, local[1] - y, local[2] - at[0]))
+    column, row = (part - grid['first_cell']) % grid['nx'], (part - grid['first_cell']) // grid['nx']
+    return not (x <= x0 and gx > free and column > 0 or x >= x1 and gx < -free and column < grid['nx'] - 1
+                or y <= y0 and gy > free and row > 0 or y >= y1 and gy < -free and row < grid['ny'] - 1)
+
+
+@surface_protocol.hollow.register(Maps)
+def _hollow(kind, part):
+    grid = kind.grids[grid_of(kind, part)]
+    return grid['hollow'] if part == grid['number'] else kind.cells[bounds_of(kind, part), 2]
+
+
+@surface_protocol.support_of.register(Maps)
+def _support_of(kind, part):
+    grid = kind.grids[grid_of(kind, part)]
+    return grid['number'] if part < len(kind.cells) and grid['gentle'] else part
+
+
+@surface_protocol.goes_on.register(Maps)
+def _goes_on(kind, part, other):
+    # A map's own walls are no obstacles either: a ball on it meets but their upper edge, which is the map's.
+    return part == kind.grids[grid_of(kind, part)]['number'] and grid_of(kind, part) == grid_of(kind, other)
+
+
+@surface_protocol.material_of.register(Maps)
+def _material_of(kind, part):
+    return kind.grids[grid_of(kind, part)]['material']
+
+
+@surface_protocol.top.register(Maps)
+def _top(kind, x, y):
+    best = -1e300
+    who = -1
+    for i in range(len(kind.grids)):
+        grid = kind.grids[i]
+        u, v, _ = local = from_origin(grid, (x, y, 0.0))
+        if is_over(grid, local):
+            z = bicubic(kind.nodes, grid, u, v)[0]
+            if z >= best - SAME_HEIGHT:
+                best = max(best, z)
+                column, row = cell_at(grid, u, v)
+                who = grid['first_cell'] + row * grid['nx'] + column
+    return best, who
+
+
+@surface_protocol.next_part.register(Maps)
+def _next_part(kind, part, low, high):
+    for i in range(len(kind.grids)):
+        grid = kind.grids[i]
+        if part < grid['first_cell'] + grid['nx'] * grid['ny'] and reached(grid, low, high):
+            found = next_cell(kind, grid, part, low, high)
+            if found >= 0:
+                return found
+    for i in range(len(kind.grids)):
+        grid = kind.grids[i]
+        if part < grid['first_wall'] + 2 * (grid['nx'] + grid['ny']) and reached(grid, low, high):
+            found = next_wall(kind, grid, part, low, high)
+            if found >= 0:
+                return found
+    return surface_protocol.parts(kind)
+
+
+@kernel
+def reached(grid, low, high):
+    """Whether the box meets the map, seen from above, and reaches down to it."""
+    x = grid['origin'][0]
+    y = grid['origin'][1]
+    return (low[2] <= grid['high'] and high[0] >= x and low[0] <= x + grid['nx'] * grid['spacing']
+            and high[1] >= y and low[1] <= y + grid['ny'] * grid['spacing'])
+
+
+@kernel
+def columns_in(grid, axis, low, high):
+    """First and last cell along an axis that the box may meet."""
+    count = grid['ny'] if axis else grid['nx']
+    first = floor((low[axis] - grid['origin'][axis]) / grid['spacing'] - 1e-9)
+    last = floor((high[axis] - grid['origin'][axis]) / grid['spacing'] + 1e-9)
+    return int(min(max(first, 0.0), count - 1.0)), int(max(min(last, count - 1.0), 0.0))
+
+
+@shared
+def next_cell(kind, grid, part, low, high):
+    """First cell of a map, from `part` on, that reaches up into the box, or -1."""
+    left, right = columns_in(grid, 0, low, high)
+    front, back = columns_in(grid, 1, low, high)
+    begin = max(part - grid['first_cell'], 0)
+    for row in range(max(front, begin // grid['nx']), back + 1):
+        before = grid['first_cell'] + row * grid['nx']
+        for k in range(max(before + left, part), before + right + 1):
+            if low[2] <= kind.cells[k, 1]:
+                return k
+    return -1
+
+
+@shared
+def next_wall(kind, grid, part, low, high):
+    """First wall of a map, from `part` on, that reaches up into the box, or -1."""
+    for side in range(4):
+        axis = 0 if side < 2 else 1
+        edge = grid['origin'][1 - axis]
+        if side % 2 == 1:
+            edge += (grid['ny'] if axis == 0 else grid['nx']) * grid['spacing']
+        if low[1 - axis] > edge + SAME_HEIGHT or high[1 - axis] < edge - SAME_HEIGHT:
+            continue
+        first, last = columns_in(grid, axis, low, high)
+        for k in range(max(wall_number(grid, side, first), part), wall_number(grid, side, last) + 1):
+            if low[2] <= kind.cells[bounds_of(kind, k), 1]:
+                return k
+    return -1

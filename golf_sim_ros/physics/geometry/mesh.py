@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Triangles: thin sheets, hit from both sides unless they are one-sided. Each is a part.
+
+Triangles in one plane are seams to each other: a ball that rolls off one is put on the next one's plane,
+which is the same. Parts are numbered depth first along a hierarchy of boxes, mesh by mesh.
+"""
+from math import inf
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import kernel
+from ..mechanics.vector import ZERO, along, cross, dot, length, scale, sub, tangential, unit, vector
+from ..properties.material import Material
+from . import surface_protocol
+from .bvh import NODE, hierarchy
+from .plane_patch import FLUSH, ROUNDING, SAME_HEIGHT, meets
+
+AHEAD = 1e-7  # m: which way a ball on a border turns is decided this far ahead
+NARROW = 1e-9  # m: a triangle that is no wider has no plane that could be trusted
+FACE, CORNER = -1, 3  # where a place on a triangle is, if not on side 0, 1 or 2
+
+TRIANGLE = np.dtype([('corners', 'f8', (3, 3)), ('normal', 'f8', 3), ('material', 'i8'),
+                     ('one_sided', 'i8'), ('leaf', 'i8')], align=True)
+
+
+class Mesh(NamedTuple):
+    """Triangles between `vertices`, (n, 3) [m]; rows of `faces`, (m, 3), are numbers of vertices.
+
+    Seen from the front, a one-sided triangle's corners go round counterclockwise.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    material: Material = Material()
+    one_sided: bool = False
+
+
+class Meshes(NamedTuple):
+    """All meshes of a course: triangles, and one hierarchy after the other."""
+
+    triangles: np.ndarray
+    nodes: np.ndarray
+
+
+def meshes(shapes, material_number):
+    """`Meshes` of `Mesh` records; `material_number` maps a material to its row.
+
+    Raises
+    ------
+    ValueError
+        A face names a vertex that there is not, is not finite, or is no wider than a nanometre.
+    """
+    triangles, nodes = [np.zeros(0, TRIANGLE)], [np.zeros(0, NODE)]
+    before = above = 0
+    for shape in shapes:
+        corners = np.asarray(shape.vertices, float).reshape(-1, 3)[checked(shape)]
+        a, b, c = corners.transpose(1, 0, 2)
+        tree, order = hierarchy(np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
+        rows = _rows(corners[order], material_number[shape.material], shape.one_sided)
+        leaves = np.flatnonzero(tree['last'] > tree['first'])
+        rows['leaf'] = above + np.repeat(leaves, (tree['last'] - tree['first'])[leaves])
+        for name in ('first', 'last'):
+            tree[name] += before
+        tree['skip'] += above
+        triangles.append(rows)
+        nodes.append(tree)
+        before, above = before + len(rows), above + len(tree)
+    return Meshes(np.concatenate(triangles), np.concatenate(nodes))
+
+
+def checked(shape):
+    """Faces of `shape`, a `Mesh`, if all of them can be used."""
+    vertices = np.asarray(shape.vertices, float).reshape(-1, 3)
+    faces = np.asarray(shape.faces, np.int64).reshape(-1, 3)
+    if len(faces) and not 0 <= faces.min() <= faces.max() < len(vertices):
+        raise ValueError(f'a face of a mesh names a vertex out of 0 to {len(vertices) - 1}')
+    wide = widths(vertices[faces]) > NARROW  # not a number is not wide, either
+    if not wide.all():
+        raise ValueError(f'face {wide.argmin()} of a mesh is not finite, or no wider than {NARROW} m')
+    return faces
+
+
+def widths(corners):
+    """Least widths [m] of the triangles with `corners` (n, 3, 3)."""
+    with np.errstate(invalid='ignore', divide='ignore'):
+        sides = corners[:, (1, 2, 0)] - corners
+        normals = np.cross(sides[:, 0], sides[:, 1])
+        areas = np.einsum('ij,ij->i', normals, normals)
+        longest = np.einsum('ijk,ijk->ij', sides, sides).max(1)
+        return np.where(longest > 0.0, np.sqrt(areas / longest), 0.0)
+
+
+def _rows(corners, material, one_sided):
+    sides = corners[:, (1, 2, 0)] - corners
+    # The normal is that of the two shorter sides: of a sliver, the longest adds nothing but rounding.
+    longest = np.einsum('ijk,ijk->ij', sides, sides).argmax(1)
+    turned = (longest[:, np.newaxis] + np.arange(1, 4)) % 3
+    corners = np.take_along_axis(corners, turned[:, :, np.newaxis], 1)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 1])
+    rows = np.zeros(len(corners), TRIANGLE)
+    rows['corners'] = corners
+    rows['normal'] = normals / np.linalg.norm(normals, axis=1)[:, np.newaxis]
+    rows['material'], rows['one_sided'] = material, one_sided
+    return rows
+
+
+@surface_protocol.parts.register(Meshes)
+def _parts(kind):
+    return len(kind.triangles)
+
+
+@surface_protocol.next_part.register(Meshes)
+def _next_part(kind, part, low, high):
+    triangles = len(kind.triangles)
+    node = 0
+    if 0 < part < triangles:
+        node = kind.triangles[part]['leaf']
+        last = kind.nodes[node]['last']
+        while part < last:
+            if is_near(kind.triangles[part], low, high):
+                return part
+            part += 1
+        node += 1
+    while part < triangles and node < len(kind.nodes):
+        if not meets(kind.nodes[node], low, high):
+            node = kind.nodes[node]['skip']
+            continue
+        for k in range(kind.nodes[node]['first'], kind.nodes[node]['last']):
+            if is_near(kind.triangles[k], low, high):
+                return k
+        node += 1
+    return triangles
+
+
+@kernel
+def is_near(triangle, low, high):
+    """Whether the triangle's box meets the box from `low` to `high`."""
+    for axis in range(3):
+        a = triangle['corners'][0, axis]
+        b = triangle['corners'][1, axis]
+        c = triangle['corners'][2, axis]
+        if low[axis] > max(a, b, c) or high[axis] < min(a, b, c):
+            return False
+    return True
+
+
+@kernel
+def offset_from(triangle, point):
+    """Vector to `point` from the nearest place of the triangle, and where that is: FACE, a side, CORNER."""
+    normal = vector(triangle['normal'])
+    where = FACE
+    best = ZERO
+    least = inf
+    for i in range(3):
+        start = vector(triangle['corners'][i])
+        side = sub(vector(triangle['corners'][(i + 1) % 3]), start)
+        d = sub(point, start)
+        if dot(cross(normal, side), d) >= 0.0:
+            continue
+        t = min(max(dot(d, side) / dot(side, side), 0.0), 1.0)
+        offset = along(d, -t, side)
+        size = dot(offset, offset)
+        if size < least:
+            least = size
+            best = offset
+            where = i if 0.0 < t < 1.0 else CORNER
+    if where == FACE:
+        best = scale(height(triangle, point), normal)
+    return best, where
+
+
+@kernel
+def height(triangle, point):
+    """Height [m] of `point` over the triangle's plane."""
+    return dot(sub(point, vector(triangle['corners'][1])), vector(triangle['normal']))
+
+
+@kernel
+def beside(triangle, point, offset):
+    """How far [m] from the triangle the foot of `point` in its plane lies."""
+    return length(tangential(offset, vector(triangle['normal'])))
+
+
+@surface_protocol.nearest.register(Meshes)
+def _nearest(kind, part, point):
+    triangle = kind.triangles[part]
+    normal = vector(triangle['normal'])
+    offset, where = offset_from(triangle, point)
+    if where == FACE or beside(triangle, point, offset) <= FLUSH:
+        h = height(triangle, point)
+        return abs(h), normal if h >= 0.0 else scale(-1.0, normal)
+    return length(offset), unit(offset, normal)
+
+
+@surface_protocol.turn.register(Meshes)
+def _turn(kind, part, point, velocity):
+    speed = length(velocity)
+    if speed == 0.0:
+        return ZERO
+    triangle = kind.triangles[part]
+    _, where = offset_from(triangle, along(point, AHEAD / speed, velocity))
+    if where == FACE:
+        return ZERO
+    distance, out = surface_protocol.nearest(kind, part, point)
+    if where != CORNER:
+        side = sub(vector(triangle['corners'][(where + 1) % 3]), vector(triangle['corners'][where]))
+        velocity = tangential(velocity, unit(side, ZERO))
+    return scale(1.0 / distance, tangential(velocity, out))
+
+
+@surface_protocol.touchable.register(Meshes)
+def _touchable(kind, part, point):
+    return kind.triangles[part]['one_sided'] == 0 or height(kind.triangles[part], point) >= 0.0
+
+
+@surface_protocol.flat_under.register(Meshes)
+def _flat_under(kind, part, point):
+    return is_over(kind.triangles[part], point)
+
+
+@kernel
+def is_over(triangle, point):
+    """Whether the foot of `point` in the triangle's plane lies in the triangle."""
+    offset, where = offset_from(triangle, point)
+    return where == FACE or beside(triangle, point, offset) <= ROUNDING
+
+
+@surface_protocol.in_plane.register(Meshes)
+def _in_plane(kind, part, point, normal):
+    triangle = kind.triangles[part]
+    if (abs(dot(vector(triangle['normal']), normal)) > 1.0 - 1e-12
+            and abs(height(triangle, point)) <= SAME_HEIGHT):
+        return True
+    for i in range(3):  # a sliver's normal may be off, and the sliver is not
+        if abs(dot(sub(vector(triangle['corners'][i]), point), normal)) > ROUNDING:
+            return False
+    return True
+
+
+@surface_protocol.limits.register(Meshes)
+def _limits(kind):
+    return 3
+
+
+@surface_protocol.limit.register(Meshes)
+def _limit(kind, part, i):
+    triangle = kind.triangles[part]
+    start = vector(triangle['corners'][i])
+    side = sub(vector(triangle['corners'][(i + 1) % 3]), start)
+    return start, unit(cross(vector(triangle['normal']), side), ZERO)
+
+
+@surface_protocol.material_of.register(Meshes)
+def _material_of(kind, part):
+    return kind.triangles[part]['material']
+
+
+@surface_protocol.top.register(Meshes)
+def _top(kind, x, y):
+    best = -1e300
+    who = -1
+    low = (x - ROUNDING, y - ROUNDING, -inf)
+    high = (x + ROUNDING, y + ROUNDING, inf)
+    part = surface_protocol.next_part(kind, 0, low, high)
+    while part < len(kind.triangles):
+        triangle = kind.triangles[part]
+        n = triangle['normal']
+        if abs(n[2]) > 1e-9:
+            corner = triangle['corners'][1]
+            z = corner[2] - (n[0] * (x - corner[0]) + n[1] * (y - corner[1])) / n[2]
+            if z >= best - SAME_HEIGHT and is_over(triangle, (x, y, z)):
+                best = max(best, z)
+                who = part
+        part = surface_protocol.next_part(kind, part + 1, low, high)
+    return best, who
+
+
+def plan(shape):
+    """No outlines: a triangle's own sides say where it ends."""
+    return ()
+
+
+def heights(shape):
+    """Least and greatest height of the vertices that faces name."""
+    z = np.asarray(shape.vertices, float).reshape(-1, 3)[np.asarray(shape.faces, np.int64).reshape(-1, 3), 2]
+    return float(z.min(initial=inf)), float(z.max(initial=-inf))
+
+
+SHAPES = (Mesh,)
+NUMBERED = 3
+build = meshes

@@ -1,0 +1,329 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Flat ground for kernels: planes, patches, and the edges where they are cut.
+
+Parts are numbered faces first, then the edges of cuts. A face is a rectangle, of endless size and
+solid below for a plane; a cut plane's edges are walls that go down along its normal.
+
+::
+
+            n ^                         faces:  o centre, a along, b across
+              |   b                     a, b, n right-handed
+         .----|--/----.
+        /     | /    /   cut            edges:  s start, d direction,
+       /      o----->a   .----.                 down to `depth` below
+      /            /   s/--->d/
+     '------------'     '----'
+"""
+from math import cos, inf, sin
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import kernel
+from ..mechanics.vector import ZERO, add, along, dot, length, scale, sub, tangential, unit, vector
+from . import surface_protocol
+from .patch import Patch
+from .plane import Plane
+from .polygon import Polygons, inside, polygons, sides
+
+SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as equally high
+ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
+FLUSH = 2.0 * ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
+AHEAD = 2e-7  # m: a ball on a border turns as it will past it, or it would leave an edge too late
+
+FACE = np.dtype([
+    ('center', 'f8', 3), ('normal', 'f8', 3), ('along', 'f8', 3), ('across', 'f8', 3),
+    ('half_length', 'f8'), ('half_width', 'f8'), ('solid', 'i8'), ('one_sided', 'i8'),
+    ('material', 'i8'), ('first_cut', 'i8'), ('last_cut', 'i8'),
+    ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+
+EDGE = np.dtype([
+    ('start', 'f8', 3), ('direction', 'f8', 3), ('length', 'f8'), ('normal', 'f8', 3),
+    ('depth', 'f8'), ('material', 'i8'), ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+
+
+class Flats(NamedTuple):
+    """All flat ground of a course."""
+
+    faces: np.ndarray
+    edges: np.ndarray
+    cuts: Polygons
+
+
+def frame(normal, heading):
+    """Unit vectors along `heading` and across it in the plane of `normal`."""
+    n = np.asarray(normal, float)
+    n = n / np.linalg.norm(n)
+    ahead = np.array([cos(heading), sin(heading), 0.0])
+    a = ahead - (ahead @ n) * n
+    if np.linalg.norm(a) < 1e-9:  # the heading points along the normal: any direction will do
+        a = np.cross([0.0, 0.0, 1.0], n)
+    a = a / np.linalg.norm(a)
+    return n, a, np.cross(n, a)
+
+
+def flats(shapes, material_number):
+    """`Flats` of `Plane` and `Patch` records; `material_number` maps a material to its row."""
+    faces, edges, outlines = [], [], []
+    for shape in shapes:
+        solid = isinstance(shape, Plane)
+        center = np.asarray(shape.point if solid else shape.center, float)
+        n, a, b = frame(shape.normal, 0.0 if solid else shape.heading)
+        half = (inf, inf) if solid else (0.5 * shape.length, 0.5 * shape.width)
+        number = material_number[shape.material]
+        low, high = _face_box(center, n, a, b, half)
+        faces.append((center, n, a, b, *half, solid, not solid and shape.one_sided, number,
+                      len(outlines), len(outlines) + len(shape.cut), low, high))
+        for outline in shape.cut:
+            edges += _cut_edges(center, n, outline, inf if solid else 0.0, number)
+        outlines += shape.cut
+    return Flats(np.array(faces, FACE), np.array(edges, EDGE), polygons(outlines))
+
+
+def _face_box(center, n, a, b, half):
+    if half[0] < inf:
+        reach = np.abs(a) * half[0] + np.abs(b) * half[1]
+        return center - reach, center + reach
+    low, high = np.full(3, -inf), np.full(3, inf)
+    for axis in range(3):
+        if abs(n[axis]) == 1.0:
+            (high if n[axis] > 0 else low)[axis] = center[axis]
+    return low, high
+
+
+def _cut_edges(center, n, outline, depth, material):
+    def lifted(corner):
+        x, y = corner
+        z = center[2] - (n[0] * (x - center[0]) + n[1] * (y - center[1])) / n[2]
+        return np.array([x, y, z])
+
+    rows = []
+    for first, second in sides(outline):
+        start, end = lifted(first), lifted(second)
+        size = np.linalg.norm(end - start)
+        foot = np.array([-depth * c if c and depth else 0.0 for c in n])
+        box = np.array([start, end, start + foot, end + foot])
+        rows.append((start, (end - start) / size, size, n, depth, material, box.min(0), box.max(0)))
+    return rows
+
+
+@surface_protocol.parts.register(Flats)
+def _parts(kind):
+    return len(kind.faces) + len(kind.edges)
+
+
+@surface_protocol.next_part.register(Flats)
+def _next_part(kind, part, low, high):
+    faces = len(kind.faces)
+    while part < faces + len(kind.edges):
+        if part < faces:
+            if meets(kind.faces[part], low, high):
+                break
+        elif meets(kind.edges[part - faces], low, high):
+            break
+        part += 1
+    return part
+
+
+@kernel
+def meets(row, low, high):
+    """Whether the box of a face or edge meets the box from `low` to `high`."""
+    return not (low[2] > row['high'][2] or high[0] < row['low'][0] or low[0] > row['high'][0]
+                or high[1] < row['low'][1] or low[1] > row['high'][1] or high[2] < row['low'][2])
+
+
+@kernel
+def clamped(x, most):
+    """`x`, at least -`most` and at most `most`."""
+    return min(max(x, -most), most)
+
+
+@kernel
+def offset_from_face(face, point):
+    """Vector to `point` from the nearest place of a face, and the height over its plane."""
+    d = sub(point, vector(face['center']))
+    normal = vector(face['normal'])
+    a = dot(d, vector(face['along']))
+    b = dot(d, vector(face['across']))
+    h = dot(d, normal)
+    offset = scale(h, normal)
+    offset = along(offset, a - clamped(a, face['half_length']), vector(face['along']))
+    offset = along(offset, b - clamped(b, face['half_width']), vector(face['across']))
+    return offset, h
+
+
+@kernel
+def offset_from_edge(edge, point):
+    """Vector to `point` from the nearest place of a cut's edge, wall included."""
+    d = sub(point, vector(edge['start']))
+    direction = vector(edge['direction'])
+    normal = vector(edge['normal'])
+    t = min(max(dot(d, direction), 0.0), edge['length'])
+    down = max(min(dot(d, normal), 0.0), -edge['depth'])
+    return along(along(d, -t, direction), -down, normal)
+
+
+@surface_protocol.nearest.register(Flats)
+def _nearest(kind, part, point):
+    if part < len(kind.faces):
+        face = kind.faces[part]
+        normal = vector(face['normal'])
+        if face['solid']:
+            return dot(sub(point, vector(face['center'])), normal), normal
+        offset, _ = offset_from_face(face, point)
+        return length(offset), unit(offset, normal)
+    edge = kind.edges[part - len(kind.faces)]
+    offset = offset_from_edge(edge, point)
+    return length(offset), unit(offset, vector(edge['normal']))
+
+
+@surface_protocol.turn.register(Flats)
+def _turn(kind, part, point, velocity):
+    speed = length(velocity)
+    if speed == 0.0:
+        return ZERO
+    ahead = along(point, AHEAD / speed, velocity)
+    if part < len(kind.faces):
+        face = kind.faces[part]
+        if face['solid']:
+            return ZERO
+        offset, _ = offset_from_face(face, point)
+        d = sub(ahead, vector(face['center']))
+        rate = in_direction(velocity, vector(face['normal']))
+        if abs(dot(d, vector(face['along']))) > face['half_length']:
+            rate = add(rate, in_direction(velocity, vector(face['along'])))
+        if abs(dot(d, vector(face['across']))) > face['half_width']:
+            rate = add(rate, in_direction(velocity, vector(face['across'])))
+    else:
+        edge = kind.edges[part - len(kind.faces)]
+        offset = offset_from_edge(edge, point)
+        d = sub(ahead, vector(edge['start']))
+        rate = velocity
+        if 0.0 < dot(d, vector(edge['direction'])) < edge['length']:
+            rate = sub(rate, in_direction(velocity, vector(edge['direction'])))
+        if -edge['depth'] < dot(d, vector(edge['normal'])) < 0.0:
+            rate = sub(rate, in_direction(velocity, vector(edge['normal'])))
+    away = length(offset)
+    return scale(1.0 / away, tangential(rate, scale(1.0 / away, offset))) if away > 0.0 else ZERO
+
+
+@kernel
+def in_direction(velocity, direction):
+    """Part of `velocity` in a unit `direction`."""
+    return scale(dot(velocity, direction), direction)
+
+
+@kernel
+def in_a_cut(flat, face, x, y):
+    """Whether the surface of `face` is cut away at `x`, `y`."""
+    for i in range(face['first_cut'], face['last_cut']):
+        if inside(flat.cuts, i, x, y):
+            return True
+    return False
+
+
+@surface_protocol.touchable.register(Flats)
+def _touchable(kind, part, point):
+    if part >= len(kind.faces):
+        return True
+    face = kind.faces[part]
+    _, h = offset_from_face(face, point)
+    return not (face['one_sided'] and h < 0.0 or surface_protocol.in_cut(kind, part, point))
+
+
+@surface_protocol.in_cut.register(Flats)
+def _in_cut(kind, part, point):
+    if part >= len(kind.faces):
+        return False
+    face = kind.faces[part]
+    offset, _ = offset_from_face(face, point)
+    place = sub(point, offset)
+    return in_a_cut(kind, face, place[0], place[1])
+
+
+@surface_protocol.flat_under.register(Flats)
+def _flat_under(kind, part, point):
+    if part >= len(kind.faces):
+        return False
+    face = kind.faces[part]
+    d = sub(point, vector(face['center']))
+    return (abs(dot(d, vector(face['along']))) <= face['half_length'] + ROUNDING
+            and abs(dot(d, vector(face['across']))) <= face['half_width'] + ROUNDING)
+
+
+@surface_protocol.is_plane.register(Flats)
+def _is_plane(kind, part):
+    return part < len(kind.faces) and kind.faces[part]['solid'] != 0
+
+
+@surface_protocol.in_plane.register(Flats)
+def _in_plane(kind, part, point, normal):
+    if part < len(kind.faces):
+        place = vector(kind.faces[part]['center'])
+        own = vector(kind.faces[part]['normal'])
+    else:
+        place = vector(kind.edges[part - len(kind.faces)]['start'])
+        own = vector(kind.edges[part - len(kind.faces)]['normal'])
+    return (abs(dot(own, normal)) > 1.0 - 1e-12
+            and abs(dot(sub(point, place), own)) <= SAME_HEIGHT)
+
+
+@surface_protocol.material_of.register(Flats)
+def _material_of(kind, part):
+    if part < len(kind.faces):
+        return kind.faces[part]['material']
+    return kind.edges[part - len(kind.faces)]['material']
+
+
+@surface_protocol.top.register(Flats)
+def _top(kind, x, y):
+    best = -1e300
+    who = -1
+    for part in range(len(kind.faces)):
+        face = kind.faces[part]
+        if (x < face['low'][0] or x > face['high'][0] or y < face['low'][1]
+                or y > face['high'][1] or abs(face['normal'][2]) < 1e-9):
+            continue
+        dx = x - face['center'][0]
+        dy = y - face['center'][1]
+        n = face['normal']
+        z = face['center'][2] - (n[0] * dx + n[1] * dy) / n[2]
+        if z >= best - SAME_HEIGHT and _covers(kind, face, (x, y, z)):
+            best = max(best, z)
+            who = part
+    return best, who
+
+
+@kernel
+def _covers(flat, face, place):
+    d = sub(place, vector(face['center']))
+    return (abs(dot(d, vector(face['along']))) <= face['half_length'] + ROUNDING
+            and abs(dot(d, vector(face['across']))) <= face['half_width'] + ROUNDING
+            and not in_a_cut(flat, face, place[0], place[1]))
+
+
+def plan(shape):
+    """Outlines in plan, sequences of (x, y), across which `shape` begins or ends."""
+    outlines = [tuple(c) for c in shape.cut]
+    if isinstance(shape, Patch):
+        n, a, b = frame(shape.normal, shape.heading)
+        turns = ((1, 1), (-1, 1), (-1, -1), (1, -1))
+        outlines.append(tuple(
+            tuple((np.asarray(shape.center) + i * 0.5 * shape.length * a + j * 0.5 * shape.width * b)[:2])
+            for i, j in turns))
+    return outlines
+
+
+def heights(shape):
+    """Least and greatest height of a patch; of a level plane its own; a tilted one has no bounds."""
+    if isinstance(shape, Plane):
+        level = frame(shape.normal, 0.0)[0][2] == 1.0
+        return (shape.point[2], shape.point[2]) if level else (-inf, -inf)
+    _, a, b = frame(shape.normal, shape.heading)
+    reach = 0.5 * shape.length * abs(a[2]) + 0.5 * shape.width * abs(b[2])
+    return shape.center[2] - reach, shape.center[2] + reach
+
+
+SHAPES = (Plane, Patch)
+NUMBERED = 1
+build = flats

@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Solids that stand on the ground: upright cylinders with flat ends, and spheres."""
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import kernel
+from ..mechanics.vector import along, dot, length, scale, sub, tangential, unit, vector
+from ..properties.material import Material, Restitution
+from . import surface_protocol
+from .plane_patch import ROUNDING, SAME_HEIGHT, meets
+from .polygon import Circle
+
+SOLID = np.dtype([('center', 'f8', 3), ('radius', 'f8'), ('height', 'f8'), ('is_sphere', 'i8'),
+                  ('sort', 'i8'), ('material', 'i8'), ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+
+FLAGSTICK_RADIUS = 0.0095  # m: the Equipment Rules allow 50.8 mm across; sticks in use have 19 mm
+FLAGSTICK_HEIGHT = 2.13  # m: 7 ft, as the USGA recommends
+
+# A stick of glass fibre that gives way. Estimates: it takes most of the approach, and is smooth; livelier
+# or rougher, 0.35 and 0.2, it would turn back putts of 1.5 m/s that the bare hole takes.
+FLAGSTICK = Material('flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.05, 0.002, 0.0, color=(1.0, 1.0, 1.0))
+
+
+class Cylinder(NamedTuple):
+    """An upright cylinder with flat ends: `base` is the middle of the lower one."""
+
+    base: tuple
+    radius: float
+    height: float
+    material: Material = Material()
+
+
+class Sphere(NamedTuple):
+    """A ball that stays where it is."""
+
+    center: tuple
+    radius: float
+    material: Material = Material()
+
+
+class Flagstick(NamedTuple):
+    """A `Cylinder` in the hole; an impact with it is told as such."""
+
+    base: tuple
+    radius: float = FLAGSTICK_RADIUS
+    height: float = FLAGSTICK_HEIGHT
+    material: Material = FLAGSTICK
+
+
+class Solids(NamedTuple):
+    """All solids of a course."""
+
+    solids: np.ndarray
+
+
+def build(shapes, material_number):
+    """`Solids` of records; `material_number` maps a material to its row. A cylinder's center is its base."""
+    rows = []
+    for shape in shapes:
+        is_sphere = isinstance(shape, Sphere)
+        center = shape.center if is_sphere else shape.base
+        low, high = box(shape)
+        sort = surface_protocol.FLAGSTICK if isinstance(shape, Flagstick) else surface_protocol.OBSTACLE
+        rows.append((center, shape.radius, 0.0 if is_sphere else shape.height, is_sphere, sort,
+                     material_number[shape.material], low, high))
+    return Solids(np.array(rows, SOLID))
+
+
+def without(ground):
+    """`Ground` without its solids: no obstacles, no flagstick. The types are the same."""
+    return ground._replace(kinds=tuple(Solids(kind.solids[:0]) if isinstance(kind, Solids) else kind
+                                       for kind in ground.kinds))
+
+
+def box(shape):
+    """Least and greatest x, y, z of a solid."""
+    x, y, z = shape.center if isinstance(shape, Sphere) else shape.base
+    r = shape.radius
+    bottom, top = (z - r, z + r) if isinstance(shape, Sphere) else (z, z + shape.height)
+    return (x - r, y - r, bottom), (x + r, y + r, top)
+
+
+def plan(shape):
+    """The rim of a cylinder's flat top; a sphere has nothing flat that ends."""
+    return [] if isinstance(shape, Sphere) else [Circle(shape.base[0], shape.base[1], shape.radius)]
+
+
+def heights(shape):
+    """Lowest and highest of a solid."""
+    low, high = box(shape)
+    return low[2], high[2]
+
+
+@kernel
+def from_axis(solid, point):
+    """Distance of `point` from the upright axis, and the level unit vector from there."""
+    dx = point[0] - solid['center'][0]
+    dy = point[1] - solid['center'][1]
+    away = sqrt(dx * dx + dy * dy)
+    return away, unit((dx, dy, 0.0), (1.0, 0.0, 0.0))
+
+
+@kernel
+def over_ends(solid, point):
+    """Height of `point` over a cylinder's upper end, or depth under its lower one: negative between them."""
+    h = point[2] - solid['center'][2]
+    return max(h - solid['height'], -h), (0.0, 0.0, 1.0 if h > 0.5 * solid['height'] else -1.0)
+
+
+@surface_protocol.parts.register(Solids)
+def _parts(kind):
+    return len(kind.solids)
+
+
+@surface_protocol.next_part.register(Solids)
+def _next_part(kind, part, low, high):
+    while part < len(kind.solids) and not meets(kind.solids[part], low, high):
+        part += 1
+    return part
+
+
+@surface_protocol.nearest.register(Solids)
+def _nearest(kind, part, point):
+    solid = kind.solids[part]
+    if solid['is_sphere']:
+        offset = sub(point, vector(solid['center']))
+        return length(offset) - solid['radius'], unit(offset, (0.0, 0.0, 1.0))
+    away, out = from_axis(solid, point)
+    beyond = away - solid['radius']
+    over, upright = over_ends(solid, point)
+    if beyond > 0.0 and over > 0.0:
+        distance = sqrt(beyond * beyond + over * over)
+        return distance, along(scale(beyond / distance, out), over / distance, upright)
+    if beyond > over:
+        return beyond, out
+    return over, upright
+
+
+@surface_protocol.turn.register(Solids)
+def _turn(kind, part, point, velocity):
+    solid = kind.solids[part]
+    if solid['is_sphere']:
+        offset = sub(point, vector(solid['center']))
+        distance = max(length(offset), ROUNDING)
+        return scale(1.0 / distance, tangential(velocity, scale(1.0 / distance, offset)))
+    away, out = from_axis(solid, point)
+    over, upright = over_ends(solid, point)
+    beyond = away - solid['radius']
+    if beyond < -ROUNDING:  # beside an end
+        return 0.0, 0.0, 0.0
+    around = (-out[1], out[0], 0.0)
+    circling = dot(velocity, around) / away
+    if over < -ROUNDING:
+        return scale(circling, around)
+    # Around the rim, whose nearest place goes along with the motion about the axis.
+    relative = along(velocity, -circling * solid['radius'], around)
+    normal = along(scale(max(beyond, 0.0), out), max(over, 0.0), upright)
+    distance = max(length(normal), ROUNDING)
+    return scale(1.0 / distance, tangential(relative, scale(1.0 / distance, normal)))
+
+
+@surface_protocol.flat_under.register(Solids)
+def _flat_under(kind, part, point):
+    solid = kind.solids[part]
+    away, _ = from_axis(solid, point)
+    over, _ = over_ends(solid, point)
+    return not solid['is_sphere'] and over > 0.0 and away <= solid['radius'] + ROUNDING
+
+
+@surface_protocol.in_plane.register(Solids)
+def _in_plane(kind, part, point, normal):
+    solid = kind.solids[part]
+    top = solid['center'][2] + solid['height']
+    return not solid['is_sphere'] and normal[2] > 1.0 - 1e-12 and abs(point[2] - top) <= SAME_HEIGHT
+
+
+@surface_protocol.is_ground.register(Solids)
+def _is_ground(kind):
+    return False
+
+
+@surface_protocol.sort.register(Solids)
+def _sort(kind, part):
+    return kind.solids[part]['sort']
+
+
+@surface_protocol.material_of.register(Solids)
+def _material_of(kind, part):
+    return kind.solids[part]['material']
+
+
+@surface_protocol.top.register(Solids)
+def _top(kind, x, y):
+    best = -1e300
+    who = -1
+    for part in range(len(kind.solids)):
+        solid = kind.solids[part]
+        dx = x - solid['center'][0]
+        dy = y - solid['center'][1]
+        rest = solid['radius'] * solid['radius'] - dx * dx - dy * dy
+        if rest >= 0.0:
+            z = solid['center'][2] + (sqrt(rest) if solid['is_sphere'] else solid['height'])
+            if z >= best - SAME_HEIGHT:
+                best = max(best, z)
+                who = part
+    return best, who
+
+
+SHAPES = (Cylinder, Sphere, Flagstick)
+NUMBERED = 4

@@ -1,0 +1,329 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The ground as a whole: every kind's parts in one numbering, and lines where things change.
+
+The closest point, the highest surface and the material under a point are asked for here, whatever
+kind of ground gives the answer.
+"""
+from math import sqrt
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import borrowed, entry, kernel, literal_unroll, shared
+from ..mechanics.vector import ZERO, along, dot, scale
+from ..state.ball import NO_PART
+from . import surface_protocol
+from .plane_patch import SAME_HEIGHT
+from .polygon import Polygons, Regions, beside, in_region, inside
+from .water_surface import Waters
+
+NO_GROUND = -1e300
+LOOK_AHEAD = 1e-7  # m: on a border, what a ball is on is decided this far ahead
+RIM_REACH = 0.02  # m: so near to the height of its rim the hole cuts whatever ground is there
+
+BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8')],
+                  align=True)
+
+
+class Ground(NamedTuple):
+    """Everything that a ball can touch.
+
+    ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
+    surface may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
+    ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
+    greatest height of the rim, height of the bottom; ``waters`` lie over it all; all ground and water but
+    tilted planes lies between ``lowest`` and ``highest``.
+    """
+
+    kinds: tuple
+    borders: np.ndarray
+    zones: Regions
+    zone_materials: np.ndarray
+    bounds: Polygons
+    hole: np.ndarray
+    waters: Waters
+    lowest: float
+    highest: float
+
+
+def of_its_kind(law, otherwise):
+    """Kernel that asks `law` of the kind that a part, numbered among those of all kinds, belongs to."""
+    @shared
+    def asked(ground, part, *more):
+        result = otherwise
+        for kind in literal_unroll(ground.kinds):
+            n = surface_protocol.parts(kind)
+            if 0 <= part < n:
+                result = law(kind, part, *more)
+            part -= n
+        return result
+
+    # Machine code of two processes meets in a third by its names: no two kernels may have the same.
+    asked.__name__ = asked.__qualname__ = f'{law.__name__}_of_its_kind'
+    asked.__doc__ = law.__doc__
+    return asked
+
+
+nearest = of_its_kind(surface_protocol.nearest, (1e300, (0.0, 0.0, 1.0)))
+turn = of_its_kind(surface_protocol.turn, ZERO)
+hollow = of_its_kind(surface_protocol.hollow, 0.0)
+flat_under = of_its_kind(surface_protocol.flat_under, False)
+in_plane = of_its_kind(surface_protocol.in_plane, False)
+is_plane = of_its_kind(surface_protocol.is_plane, False)
+in_cut = of_its_kind(surface_protocol.in_cut, False)
+limit = of_its_kind(surface_protocol.limit, (ZERO, ZERO))
+_touchable = of_its_kind(surface_protocol.touchable, False)
+sort = of_its_kind(surface_protocol.sort, surface_protocol.GROUND)
+_own_material = of_its_kind(surface_protocol.material_of, 0)
+
+
+@kernel
+def parts(ground):
+    """Number of parts of all kinds."""
+    total = 0
+    for kind in literal_unroll(ground.kinds):
+        total += surface_protocol.parts(kind)
+    return total
+
+
+@shared
+def next_part(ground, part, low, high):
+    """First part, from `part` on, that may have a point in the box from `low` to `high`, or NO_PART."""
+    found = NO_PART
+    before = 0
+    for kind in literal_unroll(ground.kinds):
+        n = surface_protocol.parts(kind)
+        if found == NO_PART and part < before + n:
+            k = surface_protocol.next_part(kind, max(part - before, 0), low, high)
+            if k < n:
+                found = before + k
+        before += n
+    return found
+
+
+@shared
+def limits(ground, part):
+    """Number of straight lines at which `part` ends, beside outlines in plan."""
+    result = 0
+    for kind in literal_unroll(ground.kinds):
+        n = surface_protocol.parts(kind)
+        if 0 <= part < n:
+            result = surface_protocol.limits(kind)
+        part -= n
+    return result
+
+
+@shared
+def is_ground(ground, part):
+    """Whether zones repaint `part` and the hole is cut into it."""
+    result = False
+    for kind in literal_unroll(ground.kinds):
+        n = surface_protocol.parts(kind)
+        if 0 <= part < n:
+            result = surface_protocol.is_ground(kind)
+        part -= n
+    return result
+
+
+@shared
+def support_of(ground, part):
+    """Part that a ball stands on where it touches `part`: of a smooth surface, all of it."""
+    result = part
+    before = 0
+    for kind in literal_unroll(ground.kinds):
+        n = surface_protocol.parts(kind)
+        if before <= part < before + n:
+            result = before + surface_protocol.support_of(kind, part - before)
+        before += n
+    return result
+
+
+@shared
+def goes_on(ground, part, other):
+    """Whether `other` is the same smooth surface as `part`, a support, and so no obstacle on it."""
+    result = False
+    for kind in literal_unroll(ground.kinds):
+        n = surface_protocol.parts(kind)
+        if 0 <= part < n and 0 <= other < n:
+            result = surface_protocol.goes_on(kind, part, other)
+        part -= n
+        other -= n
+    return result
+
+
+@shared
+def touchable(ground, part, point):
+    """Whether the surface exists where `part` is nearest to `point`, seen from there."""
+    if len(ground.hole) > 0 and is_ground(ground, part):
+        distance, normal = nearest(ground, part, point)
+        if in_hole(ground.hole, along(point, -distance, normal)):
+            return False
+    return _touchable(ground, part, point)
+
+
+@kernel
+def in_hole(hole, place):
+    """Whether the ground at `place` is cut away by the hole."""
+    dx = place[0] - hole[0]
+    dy = place[1] - hole[1]
+    return (dx * dx + dy * dy < hole[2] * hole[2] and hole[3] - RIM_REACH < place[2] < hole[4] + RIM_REACH)
+
+
+@kernel
+def in_cup(hole, place):
+    """Whether `place` lies in the hole, below all of its rim."""
+    dx = place[0] - hole[0]
+    dy = place[1] - hole[1]
+    return dx * dx + dy * dy < hole[2] * hole[2] and hole[5] < place[2] < hole[3]
+
+
+@shared
+def material_of(ground, part, point):
+    """Number of the material of `part` where it is touched at `point`: of the last zone there, if any."""
+    if len(ground.zone_materials) > 0 and is_ground(ground, part):
+        for back in range(1, len(ground.zone_materials) + 1):
+            i = len(ground.zone_materials) - back
+            if in_region(ground.zones, i, point[0], point[1]):
+                return ground.zone_materials[i]
+    return _own_material(ground, part)
+
+
+@shared
+def top(ground, x, y):
+    """Height of the highest surface at `x`, `y`, and its part; NO_GROUND, NO_PART without one."""
+    best = NO_GROUND
+    who = NO_PART
+    before = 0
+    for kind in literal_unroll(ground.kinds):
+        z, part = surface_protocol.top(kind, x, y)
+        if part >= 0 and z >= best - SAME_HEIGHT:
+            best = max(best, z)
+            who = before + part
+        before += surface_protocol.parts(kind)
+    return best, who
+
+
+@entry
+def look_down(ground, x, y):
+    """Height of the highest surface at `x`, `y`, its part, and the number of its material; see `top`."""
+    ground = borrowed(ground)
+    z, part = top(ground, x, y)
+    return z, part, material_of(ground, part, (x, y, z))
+
+
+@kernel
+def around(point, reach):
+    """Box of half width `reach` around `point`."""
+    box = (reach, reach, reach)
+    return along(point, -1.0, box), along(point, 1.0, box)
+
+
+@kernel
+def ground_height(ground, x, y):
+    """Height [m] of the highest surface at `x`, `y`; 0 where there is none."""
+    z, part = top(ground, x, y)
+    return z if part >= 0 else 0.0
+
+
+@kernel
+def out_of_bounds(ground, x, y):
+    """How far [m] the point is out of the course's bounds, in plan; -1 within them, or if there are none."""
+    if len(ground.bounds.first) < 2 or inside(ground.bounds, 0, x, y):
+        return -1.0
+    return beside(ground.bounds, 0, x, y)
+
+
+@shared
+def alone(ground, part, point, radius):
+    """Whether a ball at `point` that touches `part` can touch no other ground."""
+    low, high = around(point, radius + SAME_HEIGHT)
+    return next_part(ground, 0, low, high) == part and next_part(ground, part + 1, low, high) == NO_PART
+
+
+@shared
+def touched(ground, point, radius, ahead):
+    """Part that a ball at `point` stands on, the latest of equals, and the normal there.
+
+    A part counts if it lies within SAME_HEIGHT of touching. Faces count where they reach `ahead`,
+    a unit vector, from here: on a border it decides who is next. A face beats an edge.
+    """
+    best = NO_PART
+    best_flat = False
+    best_normal = (0.0, 0.0, 1.0)
+    low, high = around(point, radius + SAME_HEIGHT)
+    next_point = along(point, LOOK_AHEAD, ahead)
+    part = next_part(ground, 0, low, high)
+    while part >= 0:
+        distance, normal = nearest(ground, part, point)
+        if abs(distance - radius) <= SAME_HEIGHT and touchable(ground, part, next_point):
+            flat = flat_under(ground, part, next_point)
+            if (flat or not best_flat) and (best == NO_PART or flat > best_flat
+                                            or normal[2] > best_normal[2] - 1e-9):
+                best = support_of(ground, part)
+                best_flat = flat
+                best_normal = normal
+        part = next_part(ground, part + 1, low, high)
+    return best, best_normal
+
+
+@shared
+def under(ground, part, point, ahead):
+    """`nearest`, of `part` under a ball at `point` that heads for `ahead`, a unit vector or zero.
+
+    On a border a flat part that goes on ahead counts as flat: a corner that is passed by is no edge.
+    """
+    next_point = along(point, LOOK_AHEAD, ahead)
+    if flat_under(ground, part, next_point):
+        distance, normal = nearest(ground, part, next_point)
+        return distance - LOOK_AHEAD * dot(ahead, normal), normal
+    return nearest(ground, part, point)
+
+
+@kernel
+def depth(ground, point, radius):
+    """How deep [m] a ball at `point` lies in the ground; 0 where it is clear."""
+    deepest = 0.0
+    low, high = around(point, radius)
+    part = next_part(ground, 0, low, high)
+    while part >= 0:
+        distance, _ = nearest(ground, part, point)
+        if radius - distance > deepest and touchable(ground, part, point):
+            deepest = radius - distance
+        part = next_part(ground, part + 1, low, high)
+    return deepest
+
+
+@kernel
+def room_in_plan(ground, point):
+    """Distance in plan of `point` from the nearest border."""
+    room = 1e300
+    for i in range(len(ground.borders)):
+        away, _ = distance_in_plan(ground.borders[i], point[0], point[1])
+        room = min(room, away)
+    return room
+
+
+@kernel
+def distance_in_plan(border, x, y):
+    """Distance of `x`, `y` from a border, and the direction from there."""
+    dx = x - border['start'][0]
+    dy = y - border['start'][1]
+    ex = border['direction'][0]
+    ey = border['direction'][1]
+    t = min(max(dx * ex + dy * ey, 0.0), border['length'])
+    ox = dx - t * ex
+    oy = dy - t * ey
+    size = sqrt(ox * ox + oy * oy)
+    if size == 0.0:
+        return border['radius'], (-ey, ex, 0.0)
+    out = (ox / size, oy / size, 0.0)
+    if size < border['radius']:
+        return border['radius'] - size, scale(-1.0, out)
+    return size - border['radius'], out
+
+
+@kernel
+def slope(pull, normal):
+    """How hard `pull` presses on a surface of `normal`, and its part along the surface."""
+    press = -dot(pull, normal)
+    return press, along(pull, press, normal)

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Zones: polygons in plan that paint the ground with another material."""
+from typing import NamedTuple
+
+from ..properties.material import Material
+
+
+class Zone(NamedTuple):
+    """Corners (x, y) of its `polygon`; `cut` holds polygons within, which it leaves as they are."""
+
+    material: Material
+    polygon: tuple
+    cut: tuple = ()
+
+
+def zones_of(zones):
+    """`Zone` records of `zones`, which may also be pairs of material and polygon."""
+    return tuple(Zone(*zone) for zone in zones)

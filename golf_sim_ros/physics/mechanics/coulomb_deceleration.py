@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A braked particle on a slope, in closed form: u' = G ex - a u/|u|.
+
+Slip on a plane and rolling against rolling resistance are both this. In parabolic coordinates,
+u = (P^2 - Q^2) ex + 2 P Q ey with speed s = P^2 + Q^2, and with dt = s dq instead of time, the
+motion is linear: P' = -(a - G)/2 P, Q' = -(a + G)/2 Q. So speed, direction, time and way are sums of
+exponentials of q; q grows without end as the particle stops, and the stop itself is one of its
+values: q = inf. (Levi-Civita's regularization of the Kepler problem is the same substitution.)
+A particle that starts from rest goes straight down the slope; there q is the time itself.
+"""
+from math import exp, expm1, inf, log, sqrt
+from typing import NamedTuple
+
+from ..jit import kernel
+from .vector import add, along, cross, dot, length, scale, unit
+
+
+MOST_EXPONENT = 690.0  # of exp in double precision
+NEVER = 1e300
+MOST_ROUNDS = 200
+FAR = 4.0  # times too long: of a parameter from which Newton's method is slow
+EXACT = 1e-9  # of the parameter: a correction after which only rounding is left
+
+
+class Braked(NamedTuple):
+    """Start of a braked motion: squares of P and Q, both unit vectors, slope G and brake a."""
+
+    pp: float
+    qq: float
+    down: tuple
+    side: tuple
+    slope: float
+    brake: float
+
+
+@kernel
+def braked(u, pull, brake, normal):
+    """`Braked` motion from velocity `u` [m/s] under `pull` [m/s^2] against `brake` [m/s^2].
+
+    `u` and `pull` lie in the plane of `normal`. At rest it heads down the slope.
+    """
+    slope = length(pull)
+    speed = length(u)
+    down = unit(pull, unit(u, (1.0, 0.0, 0.0)))
+    side = cross(normal, down)
+    pp = 0.5 * (speed + dot(u, down))
+    if dot(u, down) > 0.0:
+        across = dot(u, side)
+        qq = 0.25 * across * across / pp
+    else:
+        qq = 0.5 * (speed - dot(u, down))
+        across = dot(u, side)
+        pp = 0.25 * across * across / qq if qq > 0.0 else 0.0
+    if dot(u, side) < 0.0:
+        side = scale(-1.0, side)
+    return Braked(pp, qq, down, side, slope, brake)
+
+
+@kernel
+def _sum(weight, rate, q):
+    """`weight` times the integral of exp(-`rate` q) from 0 to q."""
+    if weight == 0.0 or q == 0.0:
+        return 0.0
+    if rate == 0.0:
+        return weight * q
+    if rate * q < -MOST_EXPONENT:
+        return NEVER
+    return -weight * expm1(-rate * q) / rate
+
+
+@kernel
+def _shrunk(weight, rate, q):
+    """`weight` exp(-`rate` q)."""
+    if weight == 0.0 or (q == inf and rate > 0.0):
+        return 0.0
+    if rate * q < -MOST_EXPONENT:
+        return NEVER
+    return weight * exp(-rate * q)
+
+
+@kernel
+def starts_at_rest(motion):
+    """Whether the particle has no speed yet."""
+    return motion.pp + motion.qq == 0.0
+
+
+@kernel
+def stops(motion):
+    """Whether the particle comes to a stop."""
+    if starts_at_rest(motion):
+        return False
+    if motion.pp > 0.0:
+        return motion.brake > motion.slope
+    return motion.brake + motion.slope > 0.0
+
+
+@kernel
+def after(motion, q):
+    """Time, velocity and way at the parameter `q`."""
+    slower = motion.brake - motion.slope
+    faster = motion.brake + motion.slope
+    if starts_at_rest(motion):
+        gain = max(-slower, 0.0) * q
+        return q, scale(gain, motion.down), scale(0.5 * gain * q, motion.down)
+    pp = _shrunk(motion.pp, slower, q)
+    qq = _shrunk(motion.qq, faster, q)
+    cross_now = 2.0 * sqrt(pp * qq)
+    time = _sum(motion.pp, slower, q) + _sum(motion.qq, faster, q)
+    velocity = add(scale(pp - qq, motion.down), scale(cross_now, motion.side))
+    ahead = (_sum(motion.pp * motion.pp, 2.0 * slower, q)
+             - _sum(motion.qq * motion.qq, 2.0 * faster, q))
+    pq = 2.0 * sqrt(motion.pp * motion.qq)
+    sideways = (_sum(pq * motion.pp, slower + motion.brake, q)
+                + _sum(pq * motion.qq, faster + motion.brake, q))
+    return time, velocity, add(scale(ahead, motion.down), scale(sideways, motion.side))
+
+
+@kernel
+def rate(motion, velocity):
+    """Acceleration at `velocity`; at rest that with which it came to rest or leaves it."""
+    speed = length(velocity)
+    pull = scale(motion.slope, motion.down)
+    if speed > 0.0:
+        return along(pull, -motion.brake / speed, velocity)
+    if starts_at_rest(motion):
+        return scale(max(motion.slope - motion.brake, 0.0), motion.down)
+    last = motion.down if motion.pp > 0.0 else scale(-1.0, motion.down)
+    return along(pull, -motion.brake, last)
+
+
+@kernel
+def half_way(motion, q):
+    """A parameter at about half of the time to `q`: where it is infinite, at half the speed."""
+    if q < inf:
+        return 0.5 * q
+    slowing = (motion.pp * (motion.brake - motion.slope)
+               + motion.qq * (motion.brake + motion.slope)) / (motion.pp + motion.qq)
+    if slowing > 0.0:
+        return log(2.0) / slowing
+    return 1.0 / (motion.brake + motion.slope)
+
+
+@kernel
+def parameter_at(motion, time):
+    """Parameter q at `time` [s], which must lie before the stop.
+
+    Newton's method, kept inside a bracket; its last correction squares the error. From far beyond, where time
+    grows as an exponential, it would come back by no more than the exponent's unit a round: there the bracket
+    is halved.
+    """
+    if starts_at_rest(motion):
+        return time
+    low = 0.0
+    high = inf
+    q = time / (motion.pp + motion.qq)
+    for _ in range(MOST_ROUNDS):
+        passed = after(motion, q)
+        if passed[0] < time:
+            low = q
+        else:
+            high = q
+        following = q + (time - passed[0]) / max(length(passed[1]), 1e-300)
+        is_far = passed[0] > FAR * time
+        if not is_far and abs(following - q) <= EXACT * q:
+            return following
+        if is_far or not low < following < high:
+            following = 0.5 * (low + high) if high < inf else 2.0 * low
+        q = following
+    return q

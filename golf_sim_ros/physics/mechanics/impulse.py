@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: Apache-2.0
+"""One collision law: ball against ground, ball against ball, ball against obstacle.
+
+Normal: (1 + e) times the approach. Tangential: what grip needs, times one plus the tangential
+restitution, at most dynamic friction times the normal impulse. Fixed ground has no inverse mass.
+"""
+from typing import NamedTuple
+
+from ..jit import kernel
+from .vector import along, cross, dot, length, put, scale, vector
+
+
+class Bond(NamedTuple):
+    """What a pair brings to an impact.
+
+    ``restitution``, ``tangential`` restitution, ``friction``; ``mass``: 1 / (1/m1 + 1/m2) [kg];
+    ``inertia``: moment of inertia over m r^2.
+    """
+
+    restitution: float
+    tangential: float
+    friction: float
+    mass: float
+    inertia: float
+
+
+@kernel
+def slip(velocity, spin, normal, radius):
+    """Velocity of the ball's material point that touches ground of `normal`, along the ground."""
+    return along(along(velocity, -dot(velocity, normal), normal), -radius, cross(spin, normal))
+
+
+@kernel
+def friction(bond, strength, sliding):
+    """Tangential impulse [N s] against `sliding` where the normal impulse has that `strength`."""
+    grip = (1.0 + bond.tangential) * bond.mass * bond.inertia / (1.0 + bond.inertia)
+    needed = grip * length(sliding)
+    if needed > bond.friction * strength:
+        grip *= bond.friction * strength / needed
+    return scale(-grip, sliding)
+
+
+@kernel
+def impulse(bond, velocity, spin, normal, radius):
+    """Impulse [N s] on a ball that meets what has `normal` at `velocity` relative to it.
+
+    For two balls `spin` is the sum of both spins: each turns its own surface.
+    """
+    strength = max(-(1.0 + bond.restitution) * bond.mass * dot(velocity, normal), 0.0)
+    return along(friction(bond, strength, slip(velocity, spin, normal, radius)), strength, normal)
+
+
+@kernel
+def take(ball, push, normal, record):
+    """Apply the impulse `push` at the ball's point opposite to `normal`. Writes velocity, spin."""
+    put(ball['velocity'], along(vector(ball['velocity']), 1.0 / record.mass, push))
+    turn = scale(-record.radius, cross(normal, push))
+    inertia = record.inertia * record.mass * record.radius * record.radius
+    put(ball['spin'], along(vector(ball['spin']), 1.0 / inertia, turn))

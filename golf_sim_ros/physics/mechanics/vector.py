@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Algebra of vectors as tuples of three floats: numba keeps them in registers."""
+from math import sqrt
+
+from ..jit import kernel
+
+ZERO = (0.0, 0.0, 0.0)
+
+
+@kernel
+def vector(row):
+    """Copy of an array of three as a tuple."""
+    return row[0], row[1], row[2]
+
+
+@kernel
+def put(row, a):
+    """Write `a` into `row`."""
+    row[0] = a[0]
+    row[1] = a[1]
+    row[2] = a[2]
+
+
+@kernel
+def add(a, b):
+    """a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@kernel
+def sub(a, b):
+    """a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@kernel
+def scale(k, a):
+    """k a."""
+    return k * a[0], k * a[1], k * a[2]
+
+
+@kernel
+def along(a, k, b):
+    """a + k b."""
+    return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]
+
+
+@kernel
+def dot(a, b):
+    """Scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel
+def cross(a, b):
+    """Vector product."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+@kernel
+def length(a):
+    """Euclidean norm."""
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+
+
+@kernel
+def unit(a, otherwise):
+    """`a` over its length, or `otherwise` where `a` is zero."""
+    size = length(a)
+    if size == 0.0:
+        return otherwise
+    return a[0] / size, a[1] / size, a[2] / size
+
+
+@kernel
+def tangential(a, normal):
+    """Part of `a` across the unit vector `normal`."""
+    return along(a, -dot(a, normal), normal)

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Properties of air, of ground materials and of water."""

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a surface does to a ball: restitution, friction, rolling resistance, softness."""
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import kernel
+
+STANDARD_GRAVITY = 9.80665  # m/s^2, CGPM 1901
+FOOT = 0.3048  # m, exact
+STIMPMETER_SPEED = 1.83  # m/s: a ball leaves the 36 in bar at 6.00 ft/s (USGA)
+
+
+class Restitution(NamedTuple):
+    """Ratio of rebound to approach speed: ``e0 + e1 v + e2 v^2``, held at its least value.
+
+    ``v`` is the normal approach speed [m/s]; ``e1`` in s/m, ``e2`` in s^2/m^2. Past the vertex of
+    the parabola, and wherever it would fall below ``floor``, the law stays constant, so it never
+    rises with speed.
+    """
+
+    e0: float = 0.0
+    e1: float = 0.0
+    e2: float = 0.0
+    floor: float = 0.0
+
+
+# Penner, "The run of a golf ball", Can. J. Phys. 80 (2002) 931-940: a fit to Haake's bounces on
+# turf up to 20 m/s, constant above.
+PENNER = Restitution(0.510, -0.0375, 0.000903, 0.120)
+
+
+class Material(NamedTuple):
+    """A surface, or what a ball is made of. Whatever is left out is 0.
+
+    Parameters
+    ----------
+    name : str
+    restitution : Restitution
+    tangential_restitution : float
+        -1 (frictionless) .. 0 (grips) .. 1 (superball).
+    static_friction, dynamic_friction : float
+        Coulomb's coefficients.
+    rolling_resistance : float
+        Deceleration of a ball rolling on the level, over g.
+    pivot_friction : float
+        Torque against spin about the normal, over the normal force [m].
+    softness : float
+        Scales the tilt of the contact normal of soft turf; 0 is hard.
+    color : tuple of 3 floats
+        Red, green, blue, 0..1.
+    drag : float
+        Over 0 a ball passes through, as through leaves, and is braked by drag v^2 at speed v [1/m].
+    """
+
+    name: str = 'ideal'
+    restitution: Restitution = Restitution()
+    tangential_restitution: float = 0.0
+    static_friction: float = 0.0
+    dynamic_friction: float = 0.0
+    rolling_resistance: float = 0.0
+    pivot_friction: float = 0.0
+    softness: float = 0.0
+    color: tuple = (0.5, 0.5, 0.5)
+    drag: float = 0.0
+
+
+def rolling_resistance_of_stimp(stimp):
+    """Rolling resistance of a green on which a stimpmeter's ball rolls `stimp` feet."""
+    return STIMPMETER_SPEED * STIMPMETER_SPEED / (2 * FOOT * stimp) / STANDARD_GRAVITY
+
+
+MATERIAL = np.dtype([
+    ('e0', 'f8'), ('e1', 'f8'), ('e2', 'f8'), ('floor', 'f8'),
+    ('tangential_restitution', 'f8'), ('static_friction', 'f8'), ('dynamic_friction', 'f8'),
+    ('rolling_resistance', 'f8'), ('pivot_friction', 'f8'), ('softness', 'f8')], align=True)
+
+
+def table(materials):
+    """`materials` as a structured array for kernels.
+
+    Static friction is never less than dynamic friction: a contact that slips at once when it grips
+    could neither roll nor slide.
+    """
+    rows = [(*m.restitution, m.tangential_restitution,
+             max(m.static_friction, m.dynamic_friction), m.dynamic_friction,
+             m.rolling_resistance, m.pivot_friction, m.softness) for m in materials]
+    return np.array(rows, MATERIAL)
+
+
+@kernel
+def restitution(material, speed):
+    """Ratio of rebound to approach for a normal approach `speed` [m/s]."""
+    e1 = material['e1']
+    e2 = material['e2']
+    v = speed
+    if e1 < 0.0 and e2 > 0.0:
+        v = min(v, -0.5 * e1 / e2)
+    e = material['e0'] + e1 * v + e2 * v * v
+    return min(max(e, material['floor']), 1.0)

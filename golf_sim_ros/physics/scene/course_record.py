@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is played on, as plain records: no files, no formats."""
+from typing import NamedTuple, Optional, Union
+
+from ..effects.wind import LogProfile
+from ..geometry.cup import CUP
+from ..geometry.solid import FLAGSTICK
+from ..properties.air import Air
+from ..properties.material import Material
+
+
+class Ball(NamedTuple):
+    """The ball: R&A and USGA Equipment Rules part 4 give mass and radius.
+
+    ``inertia`` is the moment of inertia over m r^2; ``restitution`` and ``friction`` are those of
+    ball against ball.
+    """
+
+    mass: float = 0.04593
+    radius: float = 0.021335
+    inertia: float = 0.4
+    restitution: float = 0.85
+    friction: float = 0.2
+
+
+class Course(NamedTuple):
+    """A course, ready to be played.
+
+    Parameters
+    ----------
+    ground : tuple
+        Shapes, lowest priority first: at equal height the later one counts.
+    tee : (float, float)
+        x, y of the first ball [m].
+    hole : (float, float) or None
+        x, y; the ground must be even all round.
+    flagstick : bool
+        Whether one stands in the hole.
+    cup, stick : Material
+        Of the hole's bottom, and of the flagstick; rim and wall are of the ground around.
+    bounds : tuple of (float, float), or None
+        Corners of the polygon that a ball on the ground may not leave.
+    zones : tuple of Zone
+        Polygons that repaint the ground from above, later over earlier; pairs (Material, polygon) will do.
+    obstacles : tuple
+        Shapes that stand on the ground and are none: hard, or leaves where the material has a drag.
+    water : tuple of Water
+        Ponds, lakes, burns: level surfaces; each needs ground below it.
+    air : Air
+    wind_profile : LogProfile, PowerProfile or UniformProfile
+    effects : 'auto' or tuple of str
+    ball : Ball
+    name, path, digest : str
+        What a person calls it; where it was read; a hash of all that was read.
+    notes : tuple of str
+        What was put right in it when it was read: a line each.
+    """
+
+    ground: tuple
+    tee: tuple = (0.0, 0.0)
+    hole: Optional[tuple] = None
+    flagstick: bool = True
+    cup: Material = CUP
+    stick: Material = FLAGSTICK
+    bounds: Optional[tuple] = None
+    zones: tuple = ()
+    obstacles: tuple = ()
+    water: tuple = ()
+    air: Air = Air()
+    wind_profile: NamedTuple = LogProfile()
+    effects: Union[str, tuple] = 'auto'
+    ball: Ball = Ball()
+    name: str = ''
+    path: str = ''
+    digest: str = ''
+    notes: tuple = ()

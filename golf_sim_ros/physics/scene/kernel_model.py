@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What kernels need to know of a world: the ball, the effects, the ground, and how exact to be."""
+from typing import NamedTuple
+
+import numpy as np
+
+from .. import geometry as ground_
+from ..effects import protocol
+from ..geometry.cup import cup_in, opening
+from ..geometry.solid import Flagstick
+from ..geometry.surfaces import Ground
+from ..properties.material import table
+from .course_record import Ball
+
+
+class Nothing(NamedTuple):
+    """An effect that does nothing: numba can't go through an empty tuple."""
+
+    amount: float = 0.0
+
+
+class Limits(NamedTuple):
+    """How exact to be.
+
+    ``settle`` [m/s]: rebounds slower than this are summed in closed form instead of followed one
+    by one; ``path`` [m]: how far the curve that ticks read may lie from a closed form.
+    """
+
+    settle: float
+    path: float
+
+
+class Land(NamedTuple):
+    """What counts for a ball in contact. Wind and the like don't, so it never recompiles for them."""
+
+    ball: Ball
+    effects: tuple
+    ground: Ground
+    materials: np.ndarray
+    limits: Limits
+
+
+class Model(NamedTuple):
+    """A world for kernels: the land, and what acts in flight."""
+
+    land: Land
+    effects: tuple
+    method: NamedTuple
+
+
+def material_names(course):
+    """Names of the materials of a course, in the order of their numbers."""
+    return tuple(material.name for material in materials(course))
+
+
+def materials(course):
+    """Materials of a course, in the order of their numbers."""
+    return tuple(dict.fromkeys([*(shape.material for shape in shapes(course)),
+                                *(zone[0] for zone in course.zones),
+                                *((course.cup, course.stick) if course.hole else ())]))
+
+
+def shapes(course):
+    """Ground and obstacles that a course's balls can touch: they pass through leaves."""
+    return course.ground + tuple(o for o in course.obstacles if o.material.drag == 0.0)
+
+
+def build(course, records, preset):
+    """`Model` of `course` with effect `records` and an accuracy `preset`.
+
+    Types are cast here, once: a kernel would compile anew for an int in place of a float.
+    """
+    on_land = speaking(records, protocol.gravity, protocol.contact_normal)
+    return Model(Land(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
+                      preset.limits),
+                 in_flight(records), preset.method)
+
+
+def in_flight(records):
+    """Those of the effects' `records` that act on a flying ball."""
+    return speaking(records, protocol.gravity, protocol.air_velocity, protocol.acceleration,
+                    protocol.spin_rate, protocol.under_water)
+
+
+def speaking(records, *some):
+    """Those of the `records` that have a word in one of `some` laws; `Nothing` where none has."""
+    return tuple(r for r in records if any(type(r) in law.cases for law in some)) or (Nothing(),)
+
+
+def ground(course):
+    """`Ground` of a course for kernels; ValueError where the hole is in ground that is too uneven."""
+    number = {material: i for i, material in enumerate(materials(course))}
+    if course.hole is None:
+        return ground_.build(shapes(course), course.zones, course.bounds, None, number, course.water)
+    cup = cup_in(bare_ground(course), *course.hole, materials(course), course.cup)
+    bottom = (*course.hole, opening(cup)[-1])
+    stick = (Flagstick(bottom, material=course.stick),) if course.flagstick else ()
+    return ground_.build((*shapes(course), cup, *stick), course.zones, course.bounds, opening(cup), number,
+                         course.water)
+
+
+def bare_ground(course):
+    """`Ground` of a course without obstacles, hole and flagstick: what its heights are asked of."""
+    number = {material: i for i, material in enumerate(materials(course))}
+    return ground_.build(course.ground, course.zones, course.bounds, None, number)

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Shots from strike to rest: one with its path, or many with their figures."""
+from concurrent.futures import BrokenExecutor, CancelledError
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from .engine.batch import Batch, batch_engine, played, progress_bar
+from .engine.engines import checked_engine
+from .geometry import surfaces
+from .mechanics.vector import ZERO
+from .result import Result, objection, suspects
+from .scene import kernel_model
+from .world import World, checked_wind
+
+
+class Play(NamedTuple):
+    """A shot with its path: `times` (n,) [s], the others (n, 3) in SI units; the last row is the end."""
+
+    result: Result
+    collisions: tuple
+    times: np.ndarray
+    positions: np.ndarray
+    velocities: np.ndarray
+    spins: np.ndarray
+
+
+def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=100.0, engine='auto'):
+    """Play one shot from the tee to its end.
+
+    Parameters
+    ----------
+    course : Course
+    shot : Shot
+    wind : (float, float, float), or array_like (n, 4)
+        At 10 m over the ground [m/s]; or rows of a time since the strike [s], the first 0, and the
+        wind from then on: gusts.
+    effects : 'auto' or sequence of str
+    accuracy : str or Preset
+    rate : float
+        Rows of the path a second. The shot itself does not depend on it.
+    engine : str
+        See `World`.
+
+    Returns
+    -------
+    Play
+
+    Raises
+    ------
+    Rejected
+        The shot can't be played; see `World.strike`.
+    ValueError
+        See `World`.
+    """
+    gusts = checked_gusts(wind)
+    world = World(course, effects=effects, accuracy=accuracy, wind=gusts[0, 1:], engine=engine)
+    name = world.names[0]
+    world.strike(name, shot.velocity, shot.spin)
+    rows, events, tick = [(0.0, *world[name][:3])], [], 0
+    while not any(isinstance(event, Result) for event in events):
+        tick += 1
+        events += _blown(world, tick / rate, gusts)
+        rows.append((world.time, *world[name][:3]))
+    end = next(event for event in events if isinstance(event, Result))
+    rows[-1] = (end.time, end.position, ZERO, world[name].spin)
+    times, positions, velocities, spins = map(np.array, zip(*rows))
+    collisions = tuple(event for event in events if event is not end)
+    return Play(end, collisions, times, positions, velocities, spins)
+
+
+def _blown(world, until, gusts):
+    """Let a world go on to the time `until`, through the `gusts` on the way; return what happened."""
+    events = []
+    for time, *wind in gusts[(gusts[:, 0] > world.time) & (gusts[:, 0] <= until)]:
+        events += world.advance(time - world.time)
+        world.set_wind(wind)
+    return events + world.advance(until - world.time)
+
+
+def checked_gusts(wind):
+    """`wind`, three numbers or a table of gusts, as a table: rows of time, x, y, z."""
+    table = np.ascontiguousarray(wind, float)
+    if table.shape == (3,):
+        table = np.array([[0.0, *table]])
+    if table.ndim != 2 or table.shape[1] != 4 or not len(table):
+        raise ValueError(f'wind has the shape {table.shape}: three numbers, or rows of time, x, y, z')
+    if table[0, 0] != 0.0 or not (np.diff(table[:, 0]) > 0.0).all():
+        raise ValueError('the times of the wind must begin with 0 and rise')
+    for row in table:
+        checked_wind(row[1:])
+    return table
+
+
+def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy='standard',
+                  executor=None, chunks=16, progress=None, engine='auto'):
+    """Play many shots, each from the tee.
+
+    Parameters
+    ----------
+    velocities, spins : array_like, (n, 3)
+        [m/s], [rad/s]
+    wind : (float, float, float), or array_like (m, 4)
+        See `simulate`.
+    executor : concurrent.futures.Executor, optional
+        Plays `chunks` parts of the shots at once: threads, processes, or other machines. Kernels let
+        other threads run, so threads do as well as processes, and share what is compiled.
+    progress : callable, optional
+        ``progress(parts, total=n)`` gives the parts back one by one and shows how far they are, as
+        `tqdm.tqdm` does. Else there is such a bar on a terminal, where tqdm is installed and it takes long.
+    engine : str
+        'python', 'compiled', or 'auto': compiled where there are so many shots that it is worth it; the log
+        says so before this process waits for a compiler.
+
+    Returns
+    -------
+    ndarray, (n,)
+        Structured, with the fields of `Result` but shot, ball, time, reason, stroke and penalty.
+
+    Raises
+    ------
+    ValueError
+        A shape is not (n, 3), or a shot can't be played: the message says which and why.
+    RuntimeError
+        A worker of the executor ended before its shots were played.
+    """
+    strikes = checked_strikes(velocities, spins)
+    gusts = checked_gusts(wind)
+    progress = progress or progress_bar
+    batch = Batch(course, gusts, effects, accuracy, checked_engine(engine))
+    if batch.engine == 'auto':
+        batch = batch._replace(engine=batch_engine(batch, len(strikes)))
+    if executor is None:
+        return played(batch, strikes, progress)
+    parts = [part for part in np.array_split(strikes, chunks) if len(part)] or [strikes]
+    try:
+        # One argument: some executors want to know how many there are.
+        done = executor.map(partial(played, batch), parts)
+        return np.concatenate(list(progress(done, total=len(parts))))
+    except (BrokenExecutor, CancelledError) as error:
+        raise RuntimeError(f'a worker of {type(executor).__name__} ended before its shots were played: '
+                           f'{" ".join(str(error).split())}') from error
+
+
+def checked_strikes(velocities, spins):
+    """Velocities and spins side by side, (n, 6); every one can be played."""
+    velocities, spins = np.asarray(velocities, float), np.asarray(spins, float)
+    if velocities.ndim != 2 or velocities.shape[1] != 3 or spins.shape != velocities.shape:
+        raise ValueError(f'velocities {velocities.shape} and spins {spins.shape} must both be (n, 3)')
+    for i in np.flatnonzero(suspects(velocities, spins)):
+        reason = objection(velocities[i], spins[i])
+        if reason:
+            raise ValueError(f'shot {i}: {reason}')
+    return np.ascontiguousarray(np.hstack([velocities, spins]))
+
+
+def check_hole(course):
+    """Raise ValueError where the ground around the course's hole can't have one."""
+    kernel_model.ground(course)
+
+
+def ground_height(course, x, y):
+    """Height [m] and material's name of the highest ground at `x`, `y`, or None where there is none."""
+    z, part, number = surfaces.look_down(kernel_model.bare_ground(course), x, y)
+    if part < 0:
+        return None
+    return z, kernel_model.material_names(course)[number]

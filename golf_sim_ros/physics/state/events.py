@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Events that the engine logs for the world to report: impacts, and the ends of shots."""
+from typing import NamedTuple
+
+import numpy as np
+
+from ..jit import kernel
+
+# Kinds of event.
+BOUNCE, SHOT_ENDS, BUMP, LOST, WET, GONE = range(6)
+
+# Of a BUMP `material` is the number of the other ball.
+EVENT = np.dtype([
+    ('time', 'f8'), ('ball', 'i8'), ('kind', 'i8'), ('material', 'i8'), ('sort', 'i8'),
+    # the vectors of a `Collision`, in its order
+    ('position', 'f8', 3), ('normal', 'f8', 3),
+    ('velocity_before', 'f8', 3), ('velocity_after', 'f8', 3),
+    ('spin_before', 'f8', 3), ('spin_after', 'f8', 3), ('impulse', 'f8', 3),
+], align=True)
+
+
+class Log(NamedTuple):
+    """Events of one call: ``events[:count[0]]`` are filled; ``count[1]``: whether a shot has ended."""
+
+    events: np.ndarray
+    count: np.ndarray
+
+
+def new_log(capacity=64):
+    """Empty `Log` for up to `capacity` events."""
+    return Log(np.zeros(capacity, EVENT), np.zeros(2, np.int64))
+
+
+@kernel
+def next_event(log):
+    """Event of the log to be written next; where it is full, the last one, which is lost. Writes count."""
+    log.count[0] = min(log.count[0] + 1, len(log.events))
+    return log.events[log.count[0] - 1]

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Records of balls and events as numbers and lists, and back."""
+from functools import cache
+
+import numpy as np
+
+from .ball import BALL, FLIGHT, ROLL, SLIDE
+
+TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
+
+OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its piece
+# What counts of all else if the ball does not move: the rest is written when it sets off.
+STANDING = ('phase', 'support', 'material', 'normal', 'tail_end', 'tail_press', 'tail_air', 'leans',
+            'strokes')
+PRESSED = ('pressing', 'pressed_by', 'pressed')  # the same of a ball that is not in a pile
+
+
+def plain(ball):
+    """All that counts of a `BALL` record, as numbers and lists by name."""
+    return {**plain_of_tick(ball), **plain_of_piece(ball)}
+
+
+def plain_of_tick(ball):
+    """The part of `plain` that every tick changes."""
+    return {name: ball[name].tolist() for name in OF_TICK}
+
+
+def plain_of_piece(ball):
+    """The part of `plain` that lasts as long as the ball's piece of path."""
+    names = BALL.names[len(OF_TICK):] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
+    if not ball['piled']:
+        names = [name for name in names if name not in PRESSED]
+    return {name: ball[name].tolist() for name in names}
+
+
+def plain_rows(records):
+    """Rows of an array of records as tuples of numbers and texts, vectors as tuples of three."""
+    return records.view(with_triples(records.dtype)).tolist()
+
+
+@cache
+def with_triples(record):
+    """The dtype `record` with its vectors as records, which become tuples."""
+    return np.dtype([(name, TRIPLE if kind.shape else kind) for name, (kind, _) in record.fields.items()],
+                    align=record.isalignedstruct)
+
+
+def restored(values):
+    """`BALL` record of what `plain` gave; ValueError where a name or shape is none of it."""
+    ball = np.zeros((), BALL)
+    ball['end'] = np.inf
+    for name, value in values.items():
+        ball[name] = np.array(value, BALL[name].base)  # 'nan' and 'inf', too, are numbers
+    return ball

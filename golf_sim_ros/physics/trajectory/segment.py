@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A piece of path as a Bezier curve, so that it can be read at any instant.
+
+Position is of degree five: it meets position, velocity and acceleration at both ends (quintic
+Hermite), so it serves every integrator whose step ends with the rates there. Spin is of degree
+three. Coefficients are Bernstein's, relative to the start: the curve lies within their hull, which
+gives bounds for nothing, and short pieces keep full precision.
+
+::
+
+    w1 ---- w2 .            w0 = 0, w1 = h v0 / 5, w2 = w1 + (h v0 / 5 + h^2 a0 / 20)
+    /         ` . w3        w5 = d, w4 = d - h v1 / 5, w3 = ...
+   w0             w4 w5
+"""
+from math import sqrt
+
+from ..jit import kernel
+from ..mechanics.vector import add, along, dot, put, sub, vector
+
+
+@kernel
+def lay(ball, way, velocity, rate, spin_rate):
+    """Write the piece's curve.
+
+    `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and
+    `spin_rate` are pairs (at start, at end); the start's spin is the ball's own and the end's
+    spin stands in the fourth coefficient already. Writes ball's path and twist.
+    """
+    h = ball['span']
+    w = ball['path']
+    w1 = along((0.0, 0.0, 0.0), h / 5.0, velocity[0])
+    w4 = along(way, -h / 5.0, velocity[1])
+    put(w[0], (0.0, 0.0, 0.0))
+    put(w[1], w1)
+    put(w[2], along(along(w1, h / 5.0, velocity[0]), h * h / 20.0, rate[0]))
+    put(w[3], along(along(w4, -h / 5.0, velocity[1]), h * h / 20.0, rate[1]))
+    put(w[4], w4)
+    put(w[5], way)
+    s = ball['twist']
+    put(s[0], vector(ball['spin']))
+    put(s[1], along(vector(ball['spin']), h / 3.0, spin_rate[0]))
+    put(s[2], along(vector(s[3]), -h / 3.0, spin_rate[1]))
+
+
+@kernel
+def position(ball, time):
+    """Position `time` after the start of the piece."""
+    t = time / ball['span']
+    s = 1.0 - t
+    w = ball['path']
+    b1 = 5.0 * s * s * s * s * t
+    b2 = 10.0 * s * s * s * t * t
+    b3 = 10.0 * s * s * t * t * t
+    b4 = 5.0 * s * t * t * t * t
+    b5 = t * t * t * t * t
+    o = ball['origin']
+    return (o[0] + (b1 * w[1, 0] + b2 * w[2, 0] + b3 * w[3, 0] + b4 * w[4, 0] + b5 * w[5, 0]),
+            o[1] + (b1 * w[1, 1] + b2 * w[2, 1] + b3 * w[3, 1] + b4 * w[4, 1] + b5 * w[5, 1]),
+            o[2] + (b1 * w[1, 2] + b2 * w[2, 2] + b3 * w[3, 2] + b4 * w[4, 2] + b5 * w[5, 2]))
+
+
+@kernel
+def velocity(ball, time):
+    """Velocity `time` after the start of the piece."""
+    t = time / ball['span']
+    s = 1.0 - t
+    w = ball['path']
+    k = 5.0 / ball['span']
+    c0 = k * s * s * s * s
+    c1 = k * 4.0 * s * s * s * t
+    c2 = k * 6.0 * s * s * t * t
+    c3 = k * 4.0 * s * t * t * t
+    c4 = k * t * t * t * t
+    return (c0 * w[1, 0] + c1 * (w[2, 0] - w[1, 0]) + c2 * (w[3, 0] - w[2, 0])
+            + c3 * (w[4, 0] - w[3, 0]) + c4 * (w[5, 0] - w[4, 0]),
+            c0 * w[1, 1] + c1 * (w[2, 1] - w[1, 1]) + c2 * (w[3, 1] - w[2, 1])
+            + c3 * (w[4, 1] - w[3, 1]) + c4 * (w[5, 1] - w[4, 1]),
+            c0 * w[1, 2] + c1 * (w[2, 2] - w[1, 2]) + c2 * (w[3, 2] - w[2, 2])
+            + c3 * (w[4, 2] - w[3, 2]) + c4 * (w[5, 2] - w[4, 2]))
+
+
+@kernel
+def spin(ball, time):
+    """Spin `time` after the start of the piece."""
+    t = time / ball['span']
+    s = 1.0 - t
+    w = ball['twist']
+    b0 = s * s * s
+    b1 = 3.0 * s * s * t
+    b2 = 3.0 * s * t * t
+    b3 = t * t * t
+    return (b0 * w[0, 0] + b1 * w[1, 0] + b2 * w[2, 0] + b3 * w[3, 0],
+            b0 * w[0, 1] + b1 * w[1, 1] + b2 * w[2, 1] + b3 * w[3, 1],
+            b0 * w[0, 2] + b1 * w[1, 2] + b2 * w[2, 2] + b3 * w[3, 2])
+
+
+@kernel
+def bend(ball, i):
+    """Acceleration's Bernstein coefficient `i` (0 to 3) of the piece."""
+    w = ball['path']
+    k = 20.0 / (ball['span'] * ball['span'])
+    second = sub(sub(vector(w[i + 2]), vector(w[i + 1])), sub(vector(w[i + 1]), vector(w[i])))
+    return k * second[0], k * second[1], k * second[2]
+
+
+@kernel
+def greatest_acceleration(ball):
+    """Bound on the acceleration's size over the piece."""
+    most = 0.0
+    for i in range(4):
+        a = bend(ball, i)
+        most = max(most, dot(a, a))
+    return sqrt(most)
+
+
+@kernel
+def greatest_speed(ball):
+    """Bound on the speed over the piece."""
+    w = ball['path']
+    most = 0.0
+    for i in range(5):
+        step = sub(vector(w[i + 1]), vector(w[i]))
+        most = max(most, dot(step, step))
+    return 5.0 / ball['span'] * sqrt(most)
+
+
+@kernel
+def least_acceleration(ball, direction):
+    """Bound from below on the acceleration along `direction` over the piece."""
+    least = dot(bend(ball, 0), direction)
+    for i in range(1, 4):
+        least = min(least, dot(bend(ball, i), direction))
+    return least
+
+
+@kernel
+def span_along(ball, axis):
+    """Least and greatest coordinate on `axis` that the piece can reach."""
+    low = 0.0
+    high = 0.0
+    w = ball['path']
+    for i in range(1, 6):
+        low = min(low, w[i, axis])
+        high = max(high, w[i, axis])
+    return ball['origin'][axis] + low, ball['origin'][axis] + high
+
+
+@kernel
+def heights(ball, normal, first):
+    """Bernstein coefficients of the piece's height over a plane of `normal`, `first` at its start."""
+    w = ball['path']
+    return (first, first + dot(vector(w[1]), normal), first + dot(vector(w[2]), normal),
+            first + dot(vector(w[3]), normal), first + dot(vector(w[4]), normal),
+            first + dot(vector(w[5]), normal))
+
+
+@kernel
+def height(g, span, time):
+    """Height `time` after the start of a piece of `span` and its rate, by its coefficients `g`."""
+    t = time / span
+    s = 1.0 - t
+    ss = s * s
+    tt = t * t
+    k = 5.0 / span
+    return (ss * ss * (s * g[0] + 5.0 * t * g[1]) + 10.0 * ss * tt * (s * g[2] + t * g[3])
+            + tt * tt * (5.0 * s * g[4] + t * g[5]),
+            k * (ss * ss * (g[1] - g[0]) + 4.0 * s * t * (ss * (g[2] - g[1]) + tt * (g[4] - g[3]))
+                 + 6.0 * ss * tt * (g[3] - g[2]) + tt * tt * (g[5] - g[4])))
+
+
+@kernel
+def bends(g, span):
+    """How fast the rate of a height with the coefficients `g` falls, and rises, over a piece at most."""
+    a = g[2] - 2.0 * g[1] + g[0]
+    b = g[3] - 2.0 * g[2] + g[1]
+    c = g[4] - 2.0 * g[3] + g[2]
+    d = g[5] - 2.0 * g[4] + g[3]
+    k = 20.0 / (span * span)
+    return max(0.0, -k * min(a, b, c, d)), max(0.0, k * max(a, b, c, d))
+
+
+@kernel
+def stay(ball):
+    """Make the piece stand still with the ball's spin, for `span`."""
+    ball['span'] = 1.0
+    put(ball['origin'], vector(ball['position']))
+    ball['path'][:, :] = 0.0
+    for i in range(4):
+        put(ball['twist'][i], vector(ball['spin']))
+
+
+@kernel
+def corner(ball, i):
+    """Control point `i` of the piece, in the course frame."""
+    return add(vector(ball['origin']), vector(ball['path'][i]))

@@ -1,0 +1,265 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recorded play, read from a rosbag2 bag (MCAP or sqlite3) with no ROS installed."""
+from collections import defaultdict
+import json
+from pathlib import Path
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+from ..optional_packages import how_to_get
+from .bag_file import BagError, raw_messages
+from .journal import JournalError, opened
+
+__all__ = ['BagError', 'read_bag', 'Recording', 'Strike', 'Track']
+
+TEXT, POSE, TWIST, STRIKE, WIND = (
+    'std_msgs/msg/String', 'geometry_msgs/msg/PoseStamped', 'geometry_msgs/msg/TwistStamped',
+    'geometry_msgs/msg/Twist', 'geometry_msgs/msg/Vector3Stamped')
+OF_SIM = {'journal': TEXT, 'shot/result': TEXT, 'collisions': TEXT, 'shot': STRIKE, 'wind': WIND}
+OF_RESULT = {'shot': int, 'ball': str, 'status': str}  # what every result has, and every collision
+OF_COLLISION = {'time': (int, float), 'ball': str, 'kind': str, 'with': str}
+OF_BALL = {'pose': POSE, 'twist': TWIST, 'shot': STRIKE}
+
+
+class Track(NamedTuple):
+    """What was told of a ball, in the order of the bag; `times` are ROS time [ns].
+
+    ``positions`` (n, 3) [m] and ``orientations`` (n, 4) (x, y, z, w) at ``times`` (n,);
+    ``velocities`` (m, 3) [m/s] and ``spins`` (m, 3) [rad/s] at ``twist_times`` (m,).
+    """
+
+    times: np.ndarray
+    positions: np.ndarray
+    orientations: np.ndarray
+    twist_times: np.ndarray
+    velocities: np.ndarray
+    spins: np.ndarray
+
+
+class Strike(NamedTuple):
+    """A strike as it was sent; `received` is when it was recorded [ns]."""
+
+    received: int
+    ball: str
+    velocity: tuple
+    spin: tuple
+
+
+class Recording(NamedTuple):
+    """What one sim told, from its start to its end.
+
+    Parameters
+    ----------
+    namespace : str
+        Of the sim; '' is the root.
+    start : int
+        ROS time [ns] of simulated time 0; without a journal, of the first pose.
+    journal : tuple of dict
+        Entries, each once, in the order of their numbers, with one more key: ``received`` [ns].
+    results, collisions : tuple of dict
+        As told, each once; vectors are lists.
+    strikes : tuple of Strike
+        What was sent to the sim, played or not.
+    tracks : dict of str to Track
+        By ball.
+    wind_times, winds : ndarray, (n,) and (n, 3)
+        ROS time [ns], and velocity of the air 10 m over the ground [m/s].
+    """
+
+    namespace: str
+    start: Optional[int]
+    journal: tuple
+    results: tuple
+    collisions: tuple
+    strikes: tuple
+    tracks: dict
+    wind_times: np.ndarray
+    winds: np.ndarray
+
+    @property
+    def config(self):
+        """The journal's first entry, or None where it has none."""
+        return next((entry for entry in self.journal if entry['kind'] == 'config'), None)
+
+    def seconds(self, times):
+        """Simulated time [s] of ROS times [ns]."""
+        return 1e-9 * (np.asarray(times) - (self.start or 0))
+
+
+def read_bag(path):
+    """What the sims in a bag told.
+
+    Parameters
+    ----------
+    path : str or path
+        Folder of a rosbag2 bag, or one of its files, .mcap or .db3.
+
+    Returns
+    -------
+    tuple of Recording
+        One for each sim and each of its starts, in the order of their first messages.
+
+    Raises
+    ------
+    BagError
+        The bag is damaged, or holds no play.
+    """
+    try:
+        told = raw_messages(Path(path))
+    except (BagError, OSError, MemoryError) as error:
+        raise BagError(f'{path}: {error}') from None
+    sims = {topic.removesuffix(f'/{end}') for topic, kind in {message[1:3] for message in told}
+            for end in ('journal', 'shot/result') if topic.endswith(f'/{end}') and kind == TEXT}
+    if not sims:
+        raise BagError(f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`')
+    plays, decode = {}, decoder(path)
+    for received, topic, kind, raw in told:
+        place = sorted_out(topic, kind, sims)
+        if place:
+            namespace, ball, name = place
+            message = decode(topic, kind, raw)
+            parts = plays.setdefault(namespace, [defaultdict(list)])
+            parts = begun(parts, name, message, path)
+            parts[ball, name].append((received, message))
+    return tuple(recording(namespace, parts, path)
+                 for namespace, starts in plays.items() for parts in starts)
+
+
+def decoder(path):
+    """Function that makes a message of a topic, a type and bytes."""
+    try:
+        from rosbags.typesys import Stores, get_typestore
+    except ImportError:
+        raise BagError(f'reading a bag needs rosbags: {how_to_get("bag", "rosbags")}') from None
+    types = get_typestore(Stores.ROS2_JAZZY)
+
+    def decode(topic, kind, raw):
+        try:
+            return types.deserialize_cdr(raw, kind)
+        except Exception as error:  # damage makes the library raise almost anything
+            reason = ' '.join(str(error).split()) or type(error).__name__
+            raise BagError(f'{path}: is damaged: a message of {topic} cannot be read: {reason}') from None
+    return decode
+
+
+def sorted_out(topic, kind, sims):
+    """Namespace, ball or '', and name of a topic of one of `sims`; None for any other."""
+    for end, expected in OF_SIM.items():
+        if topic.endswith(f'/{end}') and kind == expected and topic.removesuffix(f'/{end}') in sims:
+            return topic.removesuffix(f'/{end}'), '', end
+    namespace, _, rest = topic.rpartition('/')[0].rpartition('/')
+    name = topic.rpartition('/')[2]
+    if namespace in sims and OF_BALL.get(name) == kind:
+        return namespace, rest, name
+    return None
+
+
+def begun(starts, name, message, path):
+    """Messages of the present start of a sim; one with another configuration begins another."""
+    if name != 'journal':
+        return starts[-1]
+    entry = entry_of(message, path)
+    if entry['kind'] == 'config':
+        start = starts[-1].setdefault('start', entry['start'])
+        if start != entry['start']:
+            starts.append(defaultdict(list, start=entry['start']))
+    return starts[-1]
+
+
+def recording(namespace, parts, path):
+    """`Recording` of the messages of one start of a sim."""
+    start = parts['start'] if 'start' in parts else first_pose(parts)
+    journal = tuple(entries(parts['', 'journal'], path))
+    winds = parts['', 'wind']
+    return Recording(
+        namespace, start, journal,
+        tuple(once(texts(parts['', 'shot/result'], path, OF_RESULT), lambda result: result['shot'])),
+        tuple(once(texts(parts['', 'collisions'], path, OF_COLLISION), repr)),
+        tuple(sorted(strikes(parts, journal))),
+        {ball: track(parts[ball, 'pose'], parts[ball, 'twist'])
+         for (ball, name), _ in by_topic(parts) if name == 'pose'},
+        np.array([ros_time(message) or received for received, message in winds], np.int64),
+        table([message.vector for _, message in winds]))
+
+
+def first_pose(parts):
+    """Stamp of the first pose of any ball [ns], or None."""
+    poses = [told for (_, name), told in by_topic(parts) if name == 'pose']
+    return min((ros_time(message) for told in poses for _, message in told), default=None)
+
+
+def by_topic(parts):
+    """Ball and name, and messages, of all topics."""
+    return [(key, told) for key, told in parts.items() if key != 'start']
+
+
+def entries(told, path):
+    """Entries of a journal, each once, in the order of their numbers."""
+    found = [{**entry_of(message, path), 'received': received} for received, message in told]
+    return sorted(once(found, lambda entry: entry['entry']), key=lambda entry: entry['entry'])
+
+
+def entry_of(message, path):
+    """Entry that a message of a journal holds."""
+    try:
+        return opened(message.data)
+    except JournalError as error:
+        raise BagError(f'{path}: journal: {error}') from None
+
+
+def texts(told, path, needed):
+    """Objects of messages with JSON, which have the keys that are `needed`."""
+    try:
+        found = [json.loads(message.data) for _, message in told]
+    except (ValueError, RecursionError) as error:
+        raise BagError(f'{path}: is damaged: a result or collision is not JSON: {error}') from None
+    for one in found:
+        for name, kind in needed.items():
+            if not isinstance(one, dict) or not isinstance(one.get(name), kind):
+                raise BagError(f'{path}: is damaged: {name!r} is missing in a result or collision')
+    return found
+
+
+def once(found, key):
+    """Those of `found` whose key is new: who joins twice is told twice."""
+    seen = {}
+    for one in found:
+        seen.setdefault(key(one), one)
+    return list(seen.values())
+
+
+def strikes(parts, journal):
+    """Strikes as sent; what is sent to no ball by name is for the first."""
+    balls = next((entry['parameters']['balls'] for entry in journal if entry['kind'] == 'config'), [''])
+    for (ball, name), told in by_topic(parts):
+        if name == 'shot':
+            for received, message in told:
+                yield Strike(received, ball or balls[0], triple(message.linear), triple(message.angular))
+
+
+def track(poses, twists):
+    """`Track` of the messages about a ball."""
+    turns = [message.pose.orientation for _, message in poses]
+    return Track(
+        np.array([ros_time(message) for _, message in poses], np.int64),
+        table([message.pose.position for _, message in poses]),
+        np.array([(turn.x, turn.y, turn.z, turn.w) for turn in turns]).reshape(-1, 4),
+        np.array([ros_time(message) for _, message in twists], np.int64),
+        table([message.twist.linear for _, message in twists]),
+        table([message.twist.angular for _, message in twists]))
+
+
+def table(vectors):
+    """Rows of x, y, z."""
+    return np.array([triple(vector) for vector in vectors], float).reshape(-1, 3)
+
+
+def triple(vector):
+    """Three floats of a Vector3 or Point."""
+    return vector.x, vector.y, vector.z
+
+
+def ros_time(message):
+    """Stamp of a message [ns]."""
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec

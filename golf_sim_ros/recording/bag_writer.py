@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A rosbag2 bag that is written as messages come, with the QoS that their publishers offer."""
+from pathlib import Path
+
+from ..optional_packages import how_to_get
+
+NEVER = 9223372036, 854775807  # s, ns: what ROS 2 means by a duration without end
+
+
+class CannotRecord(RuntimeError):
+    """There is no bag, and one line says why."""
+
+
+class BagWriter:
+    """A new bag, open until `close`.
+
+    Parameters
+    ----------
+    path : str or path
+        Folder to make.
+    storage : str
+        'mcap' or 'sqlite3'.
+
+    Raises
+    ------
+    CannotRecord
+        The folder is there, or cannot be made, or the library rosbags is missing.
+    """
+
+    def __init__(self, path, storage):
+        try:
+            from rosbags.rosbag2 import StoragePlugin, Writer
+            from rosbags.rosbag2.errors import WriterError
+            from rosbags.typesys import Stores, get_typestore
+        except ImportError:
+            raise CannotRecord(f'recording needs rosbags: {how_to_get("bag", "rosbags")}') from None
+        self.path, self.types = Path(path), get_typestore(Stores.ROS2_JAZZY)
+        try:
+            self.writer = Writer(self.path, version=9, storage_plugin=StoragePlugin[storage.upper()])
+            self.writer.open()
+        except (OSError, WriterError) as error:
+            raise CannotRecord(f'{path}: {error}') from None
+        self.connections, self.count = {}, 0
+
+    def add(self, topic, kind, profiles):
+        """Begin a topic, once; `profiles` are the offered QoS, (reliability, durability, depth) by name."""
+        if topic not in self.connections:
+            self.connections[topic] = self.writer.add_connection(
+                topic, kind, typestore=self.types,
+                offered_qos_profiles=[qos(*profile) for profile in profiles])
+
+    def write(self, topic, time, data):
+        """Write a serialized message received at `time` [ns] on a topic that was added."""
+        self.writer.write(self.connections[topic], time, data)
+        self.count += 1
+
+    def close(self):
+        """Complete the bag."""
+        self.writer.close()
+
+
+def qos(reliability, durability, depth):
+    """QoS profile as bags keep it."""
+    from rosbags.interfaces import (Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime)
+    never = QosTime(*NEVER)
+    return Qos(QosHistory.KEEP_LAST, depth, QosReliability[reliability], QosDurability[durability],
+               never, never, QosLiveliness.AUTOMATIC, never, False)

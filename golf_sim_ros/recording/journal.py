@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The journal of a play: every input, so that the play can be run again to the bit.
+
+An entry is one JSON object on one line. Its first keys are its number, from 0, its kind, and its
+tick: how many ticks had passed when the input was applied. Its last key is a CRC-32 of all that
+stands before it, so that a changed byte is noticed.
+"""
+from importlib.metadata import PackageNotFoundError, version
+import json
+import platform
+from zlib import crc32
+
+from .. import __version__
+from ..physics.jit.cache import source_key
+from .json_format import Written, text
+
+SEAL = ', "crc32": '
+
+
+class JournalError(ValueError):
+    """An entry that cannot be used; one line says why."""
+
+
+class Journal:
+    """Writes entries.
+
+    Parameters
+    ----------
+    tell : callable
+        Called with the text of each entry.
+    """
+
+    def __init__(self, tell):
+        self.tell, self.entries = tell, 0
+
+    def note(self, kind, tick, **values):
+        """Tell one more entry."""
+        self.tell(sealed({'entry': self.entries, 'kind': kind, 'tick': tick, **values}))
+        self.entries += 1
+
+    def config(self, world, parameters, start):
+        """What the play is made of. `start`: ROS time [ns] at which simulated time began."""
+        course = {'name': world.course.name, 'path': world.course.path, 'digest': world.course.digest}
+        self.note('config', 0, version=__version__, course=course, parameters=parameters, start=start,
+                  made_with=made_with())
+
+    def strike(self, tick, shot, name, strike, state):
+        """Strike number `shot`; `strike` is (velocity, spin), `state` that of the world just before."""
+        velocity, spin = strike
+        self.note('strike', tick, shot=shot, ball=name, velocity=velocity, spin=spin, **state)
+
+    def rest(self, tick, shot, result, ball):
+        """The end of a shot; `ball` is the `BallState` at `tick`."""
+        self.note('rest', tick, shot=shot, ball=result.ball, status=result.status, state=standing(ball))
+
+
+def standing(ball):
+    """`BallState` for JSON."""
+    return {**ball._asdict(), 'phase': ball.phase.name}
+
+
+def made_with():
+    """What bits depend on, beside this package: they are promised where it is the same."""
+    return {'physics': source_key(), 'python': platform.python_version(), 'numpy': _version('numpy'),
+            'numba': _version('numba'), 'processor': _processor()}
+
+
+def _version(name):
+    try:
+        return version(name)
+    except PackageNotFoundError:
+        return None
+
+
+def _processor():
+    """The processor's name, or at least its family: what compilers and mathematical libraries adapt to."""
+    try:
+        with open('/proc/cpuinfo', encoding='utf-8') as file:
+            names = [line.partition(':')[2].strip() for line in file if line.startswith('model name')]
+    except OSError:
+        names = []
+    return ' '.join([platform.machine(), *names[:1]])
+
+
+def sealed(entry):
+    """Text of an entry, with its checksum."""
+    parts = (f'"{key}": {value if isinstance(value, Written) else text(value)}'
+             for key, value in entry.items())
+    body = '{' + ', '.join(parts)
+    return f'{body}{SEAL}{crc32(body.encode())}}}'
+
+
+def opened(line):
+    """Entry of a text.
+
+    Raises
+    ------
+    JournalError
+        It is no entry, or not as it was written.
+    """
+    body, seal, check = line.rpartition(SEAL)
+    if not seal:
+        raise JournalError(f'{line[:40]!r} is no entry of a journal')
+    if check != f'{crc32(body.encode())}}}':
+        raise JournalError(f'{title(body)} was changed: its checksum does not fit')
+    return json.loads(body + '}')
+
+
+def title(body):
+    """What to call an entry that may be damaged: its first two values, if they can be read."""
+    parts = body[:60].split(', ')[:2]
+    return 'entry ' + ' '.join(part.partition(': ')[2].strip('"') for part in parts)

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Results, collisions and balls as JSON, as the topics tell them."""
+from functools import lru_cache
+import json
+from math import isfinite
+
+import numpy as np
+
+from ..physics.state.ball import BALL
+from ..physics.state.serialize import OF_TICK, plain_of_piece, plain_of_tick
+
+RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time',
+          'duration', 'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time',
+          'position', 'velocity', 'spin', 'reason', 'stroke', 'penalty')
+REJECTION = ('shot', 'ball', 'status', 'velocity', 'spin', 'reason')
+COLLISION = ('time', 'ball', 'kind', 'with', 'position', 'normal', 'velocity_before',
+             'velocity_after', 'spin_before', 'spin_after', 'impulse')
+ENCODER = json.JSONEncoder(allow_nan=False)
+TICK_BYTES = BALL.fields[BALL.names[len(OF_TICK)]][1]
+DIGITS = 4  # of lengths, speeds and angles in a result; `time` has two more
+
+
+def collision_text(collision):
+    """One JSON object, in full precision; null in place of what is not finite."""
+    values = collision._asdict()
+    values['with'] = values['with_']
+    return text({key: plain(values[key]) for key in COLLISION})
+
+
+def result_text(result, shot):
+    """One JSON object for the end of strike number `shot`, rounded for people."""
+    values = {**result._asdict(), 'shot': shot}
+    rounded = {key: plain(values[key], DIGITS) for key in RESULT}
+    return text({**rounded, 'time': plain(result.time, DIGITS + 2)})
+
+
+def rejection_text(shot, ball, velocity, spin, reason):
+    """One JSON object for strike number `shot`, which was not played."""
+    values = (shot, ball, 'rejected', plain(velocity, DIGITS), plain(spin, DIGITS), reason)
+    return text(dict(zip(REJECTION, values)))
+
+
+class Written(str):
+    """JSON already."""
+
+
+def state_text(world):
+    """`world.state()`, of which the balls are `Written`."""
+    state = world.state(ball_text)
+    balls = ', '.join(f'"{name}": {ball}' for name, ball in state['balls'].items())
+    return {**state, 'balls': Written(f'{{{balls}}}')}
+
+
+def ball_text(ball):
+    """One JSON object, what `physics.state.plain` tells of a `BALL` record."""
+    return f'{text(plain_of_tick(ball))[:-1]}, {piece_text(ball.tobytes()[TICK_BYTES:])[1:]}'
+
+
+@lru_cache(maxsize=1000)
+def piece_text(record):
+    """The part that lasts for many ticks; `record` are the bytes after those that a tick writes."""
+    return text(plain_of_piece(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
+
+
+def plain(value, digits=None):
+    """`value` for JSON: floats rounded, if to `digits`, without a negative zero; None where not finite."""
+    if isinstance(value, float):
+        if not isfinite(value):
+            return None
+        return value if digits is None else round(value, digits) + 0.0
+    if isinstance(value, (tuple, list)):
+        return [plain(part, digits) for part in value]
+    return value
+
+
+def text(values):
+    """`values` as JSON; numbers come back as they were, to the bit. What is not finite is a text: 'nan'."""
+    try:
+        return ENCODER.encode(values)
+    except ValueError:
+        return ENCODER.encode(spelled(values))
+
+
+def spelled(value):
+    """`value` with texts in place of numbers that are not finite."""
+    if isinstance(value, float) and not isfinite(value):
+        return str(value)
+    if isinstance(value, dict):
+        return {key: spelled(part) for key, part in value.items()}
+    return [spelled(part) for part in value] if isinstance(value, (tuple, list)) else value

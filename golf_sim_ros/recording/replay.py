@@ -1,0 +1,345 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Recorded shots, run again: the same to the bit, or where they part."""
+from collections import defaultdict
+import json
+from math import ceil
+from time import perf_counter
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+from ..course import CourseError, load_course
+from ..physics import Result, World
+from .bag import BagError
+from .journal import standing
+from .json_format import DIGITS, collision_text, plain, result_text
+
+INPUTS = ('strike', 'place', 'reset', 'wind', 'accuracy')
+STATE = ('time', 'clock', 'accuracy', 'wind', 'balls')
+LONGEST = 1000.0  # s; every shot is over long before
+RUNS = 5  # of which the fastest counts
+MANY = {'position': 'positions', 'velocity': 'velocities', 'spin': 'spins'}
+CLOSE = 1e-9  # relative, or absolute below 1: as far as the two engines agree, chaos apart
+
+
+class Shot(NamedTuple):
+    """A shot in the journal: its strike, what came in until its end, and that end if recorded.
+
+    ``gap`` names the entries in between that are missing.
+    """
+
+    strike: dict
+    inputs: tuple
+    rest: Optional[dict]
+    gap: str
+
+
+class Rerun(NamedTuple):
+    """A shot that was run again.
+
+    ``path``: `BallState` at each tick from that of the strike to that before the end; ``impacts``: tick
+    and `Collision` of each; ``end``: the last tick; ``rest``: `BallState` then; ``trouble``: why it
+    could not be run to its end, or ''.
+    """
+
+    path: list
+    impacts: list
+    end: int
+    rest: NamedTuple
+    result: Optional[Result]
+    trouble: str
+
+
+class Difference(NamedTuple):
+    """The first that is not the same."""
+
+    tick: int
+    field: str
+    recorded: object
+    again: object
+
+
+def shots(recording):
+    """The `Shot` of each strike in the journal, in order."""
+    journal = recording.journal
+    return [shot_from(journal[i:]) for i, entry in enumerate(journal) if entry['kind'] == 'strike']
+
+
+def shot_from(entries):
+    """`Shot` of the strike with which `entries` begin."""
+    strike, *later = entries
+    gap, last, inputs = '', strike['entry'], []
+    for entry in later:
+        if entry['entry'] != last + 1:
+            gap = gap or f'{last + 1} to {entry["entry"] - 1}'
+        last = entry['entry']
+        if entry['kind'] == 'rest' and entry['shot'] == strike['shot']:
+            return Shot(strike, tuple(inputs), entry, gap)
+        if entry['kind'] in INPUTS:
+            inputs.append(entry)
+    return Shot(strike, tuple(inputs), None, gap)
+
+
+def world_of(recording, course=None):
+    """`World` like that of the recorded sim.
+
+    Parameters
+    ----------
+    recording : Recording
+    course : str or path, optional
+        Where the course is now; it must be the same to the byte.
+
+    Raises
+    ------
+    BagError
+        There is no journal or no such course, or the course is another one.
+    """
+    config = recording.config
+    if config is None:
+        missing = 'the beginning of its journal' if recording.journal else 'journal'
+        raise BagError(f'{recording.namespace or "/"}: no {missing} was recorded: it cannot be run again')
+    parameters = config['parameters']
+    found = course_of(config, course)
+    if found.digest != config['course']['digest']:
+        raise BagError(f'course {found.path}: is not the one that was played: its digest is '
+                       f'{found.digest[:12]}, in the journal {config["course"]["digest"][:12]}')
+    return World(found, parameters['balls'], tuple(parameters['effects']), parameters['accuracy'],
+                 engine='python')
+
+
+def engine_of(recording, shot):
+    """Engine that played a shot; versions before 0.2 played all shots of a sim with the same."""
+    before = 'compiled' if recording.config['made_with'].get('compiled', True) else 'python'
+    return shot.strike.get('engine', before)
+
+
+def course_of(config, course):
+    """Course of a configuration, at `course` or where it was."""
+    places = [course] if course else [config['parameters']['course'], config['course']['path']]
+    for place in places:
+        try:
+            return load_course(place)
+        except CourseError as error:
+            reason = error
+    raise BagError(f'{reason}') from None
+
+
+def rerun(world, shot, tick):
+    """`Rerun` of a shot, in ticks of `tick` [s], until its ball stops."""
+    name, now, todo = shot.strike['ball'], shot.strike['tick'], list(shot.inputs)
+    path, impacts, result, trouble = [], [], None, ''
+    try:
+        begin(world, shot.strike)
+        while not result:
+            path.append(world[name])
+            events = due(world, todo, now)
+            if not own_result(events, name):
+                impacts += [(now, event) for event in impacts_of(events, name)]
+                events, now = world.advance(tick), now + 1
+            impacts += [(now, event) for event in impacts_of(events, name)]
+            result = own_result(events, name)
+    except (KeyError, TypeError, ValueError) as error:  # what was recorded does not fit
+        trouble = f'{error}'
+    return Rerun(path, impacts, now, world[name], result, trouble)
+
+
+def begin(world, strike):
+    """Go back to where a recorded strike was made, and make it."""
+    world.restore({name: strike[name] for name in STATE})
+    world.strike(strike['ball'], strike['velocity'], strike['spin'])
+
+
+def due(world, todo, now):
+    """What happens at once with the strike and the inputs until tick `now`; takes them from `todo`."""
+    told = world.happened()
+    while todo and todo[0]['tick'] <= now:
+        aborted = applied(world, todo.pop(0))
+        told += [*world.happened(), *aborted]
+    return told
+
+
+def applied(world, entry):
+    """Results of applying an input."""
+    kind = entry['kind']
+    if kind == 'strike':
+        world.strike(entry['ball'], entry['velocity'], entry['spin'])
+    elif kind == 'place':
+        world.place(entry['ball'], entry['position'])
+    elif kind == 'wind':
+        world.set_wind(entry['wind'])
+    elif kind == 'accuracy':
+        world.accuracy = entry['accuracy']
+    return world.reset() if kind == 'reset' else []
+
+
+def impacts_of(events, name):
+    """The `Collision` of ball `name` among `events`."""
+    return [event for event in events if not isinstance(event, Result) and event.ball == name]
+
+
+def own_result(events, name):
+    """Result of ball `name` among `events`, or None."""
+    return next((event for event in events if isinstance(event, Result) and event.ball == name), None)
+
+
+def difference(recording, shot, again, exact=True):
+    """The first `Difference` between a recorded shot and its `Rerun`, or None where all is the same.
+
+    To the bit, if `exact`; else as far as the two engines agree.
+    """
+    if again.trouble:
+        return Difference(again.end, 'input', 'taken', again.trouble)
+    tick = tick_of(recording)
+    found = [*unsent(recording, shot), *off_path(recording, shot, again),
+             *other_impacts(recording, shot, again, tick), *other_end(recording, shot, again)]
+    found = [one for one in found if exact or not are_close(one)]
+    return min(found, key=lambda one: one.tick, default=None)
+
+
+def are_close(one):
+    """Whether a `Difference` is one of rounding: as between the engines, or of a result's last digit."""
+    if isinstance(one.recorded, str) or one.recorded is None or one.again is None:
+        return False
+    within = 1.01 * 10.0 ** -DIGITS if one.field.endswith('of the result') else CLOSE
+    told, now = np.array(one.recorded, float), np.array(one.again, float)
+    return told.shape == now.shape and bool((abs(told - now) <= within * np.maximum(1.0, abs(told))).all())
+
+
+def tick_of(recording):
+    """Length of a tick [s]."""
+    return 1.0 / recording.config['parameters']['rate']
+
+
+def unsent(recording, shot):
+    """Differences between the strike and what was sent, if that was recorded and fits no other strike."""
+    strike = shot.strike
+    journal = [entry for entry in recording.journal if entry['kind'] == 'strike']
+    sent = [one for one in recording.strikes if one.ball == strike['ball']]
+    if any(played(strike, one) for one in sent):
+        return
+    since = max((entry['received'] for entry in journal if entry['entry'] < strike['entry']), default=0)
+    lost = [one for one in sent if since < one.received <= strike['received']
+            and not any(played(entry, one) for entry in journal)
+            and not any(rejected(result, one) for result in recording.results)]
+    for field in ('velocity', 'spin') if lost else ():
+        told, mine = tuple(strike[field]), getattr(lost[-1], field)
+        if told != mine:
+            yield Difference(strike['tick'], f'{field} sent', mine, told)
+
+
+def played(entry, strike):
+    """Whether an entry of the journal is that of a strike as it was sent."""
+    return (entry['ball'], tuple(entry['velocity']), tuple(entry['spin'])) == strike[1:]
+
+
+def rejected(result, strike):
+    """Whether a result is the rejection of a strike as it was sent."""
+    told = [result[name] for name in ('status', 'ball', 'velocity', 'spin')]
+    return told == ['rejected', strike.ball, *plain(strike[2:], DIGITS)]
+
+
+def off_path(recording, shot, again):
+    """Differences between the poses and twists told and the path."""
+    track = recording.tracks.get(shot.strike['ball'])
+    if track is None:
+        return
+    for times, fields in ((track.times, ('position',)), (track.twist_times, ('velocity', 'spin'))):
+        ticks = np.rint(recording.seconds(times) / tick_of(recording)).astype(int) - shot.strike['tick']
+        for row in np.flatnonzero((ticks > 0) & (ticks < len(again.path))):
+            for field in fields:
+                told, now = getattr(track, MANY[field])[row], getattr(again.path[ticks[row]], field)
+                if told.tobytes() != np.array(now).tobytes():
+                    yield Difference(shot.strike['tick'] + int(ticks[row]), field, tuple(told.tolist()), now)
+
+
+def other_impacts(recording, shot, again, tick):
+    """Differences between the collisions told and those that happened again; some may not be recorded.
+
+    At one instant there may be several, as with the surfaces of a corner.
+    """
+    strike, happened = shot.strike, defaultdict(list)
+    for number, impact in again.impacts:
+        happened[impact.time, impact.kind].append((number, json.loads(collision_text(impact))))
+    end = strike['time'] + (again.end - strike['tick'] + 0.5) * tick
+    for told in recording.collisions:
+        if told['ball'] == strike['ball'] and strike['time'] <= told['time'] <= end:
+            number = strike['tick'] + ceil((told['time'] - strike['time']) / tick)
+            at_once = happened[told['time'], told['kind']] or [(number, {})]
+            number, now = next((one for one in at_once if told.items() <= one[1].items()), at_once[0])
+            for field in told:
+                if told[field] != now.get(field):
+                    yield Difference(number, f'{field} of a collision', told[field], now.get(field))
+
+
+def other_end(recording, shot, again):
+    """Differences between the end told, in journal and result, and that of the `Rerun`."""
+    result = next((one for one in recording.results if one['shot'] == shot.strike['shot']), None)
+    if result:
+        now = json.loads(result_text(again.result, result['shot']))
+        yield from differences(again.end, 'result', result, now)
+    if shot.rest:
+        rest = shot.rest
+        # An end within the strike was told with the tick after it, once.
+        at_once = again.end == shot.strike['tick'] == rest['tick'] - 1
+        now = {'tick': again.end + at_once, 'status': again.result.status, **standing(again.rest)}
+        told = {'tick': rest['tick'], 'status': rest['status'], **rest['state']}
+        yield from differences(min(again.end, rest['tick']), 'rest', told, json.loads(json.dumps(now)))
+
+
+def differences(tick, of, told, now):
+    """Differences between two dicts, in what was told then: an earlier version may have told less."""
+    for field in told:
+        if told[field] != now.get(field):
+            yield Difference(tick, f'{field} of the {of}', told[field], now.get(field))
+
+
+def timed(world, shot, tick, accuracy=None):
+    """Where a shot ends, and the time [s] that its physics takes, in as few calls as can be.
+
+    Parameters
+    ----------
+    world : World
+    shot : Shot
+    tick : float
+        Length of a tick [s].
+    accuracy : str, optional
+        In place of that of the play.
+
+    Returns
+    -------
+    position : tuple or None
+        None for a shot that a reset ended.
+    time : float
+        The least of `RUNS`.
+    """
+    runs = [run_fast(world, shot, tick, accuracy) for _ in range(RUNS)]
+    return runs[0][0], min(time for _, time in runs)
+
+
+def run_fast(world, shot, tick, accuracy):
+    """Where a shot ends, or None after a reset, and the time taken [s]."""
+    strike, name, spent = shot.strike, shot.strike['ball'], 0.0
+    begin(world, {**strike, 'accuracy': accuracy or strike['accuracy']})
+    now, result = strike['tick'], None
+    for entry in (*shot.inputs, None):
+        ahead = LONGEST if entry is None else (entry['tick'] - now) * tick
+        began = perf_counter()
+        events = world.advance(ahead)
+        spent += perf_counter() - began
+        result = own_result(events, name)
+        if result or entry is None:
+            break
+        now = entry['tick']
+        if entry['kind'] != 'accuracy' or not accuracy:
+            result = own_result(repeated(world, entry), name)
+            if result:
+                return None, spent
+    return result.position, spent
+
+
+def repeated(world, entry):
+    """Results of applying an input; at another accuracy its ball may still move, and it is left out."""
+    try:
+        return applied(world, entry)
+    except ValueError:
+        return []

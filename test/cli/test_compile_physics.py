@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""compile_physics compiles what is not compiled, or says in one line why it cannot."""
+import pytest
+
+from golf_sim_ros.cli.compile_physics import main
+from golf_sim_ros.physics.engine.engines import missing
+from golf_sim_ros.physics.jit import build, cache
+
+
+@pytest.mark.skipif(bool(missing()), reason=missing() or 'numba is here')
+def test_it_says_where_what_is_compiled_is_kept(capsys):
+    assert main(['--only', 'one ball']) == 0
+    assert capsys.readouterr().out == f'kept in {cache.folder().path}\n'
+    assert main(['--only', 'one ball', '--course', 'links']) == 0  # the same program
+
+
+def test_without_numba_it_says_how_to_get_it(capsys, monkeypatch):
+    monkeypatch.setattr(build, 'missing', lambda: 'numba is not installed: pip install numba')
+    assert main([]) == 1
+    told = capsys.readouterr()
+    assert told.err.splitlines()[-1] == 'compile_physics: numba is not installed: pip install numba'
+
+
+def test_an_unknown_course_is_one_line(capsys):
+    assert main(['--course', 'linx']) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith('compile_physics: ') and 'linx' in line
