@@ -16,7 +16,8 @@ import pytest
 
 from golf_sim_ros.course import load_course, shipped_courses
 from golf_sim_ros.physics import Air, EngineUnavailable, PowerProfile, Shot, World, simulate, simulate_many
-from golf_sim_ros.physics.engine import batch, engines
+from golf_sim_ros.physics import batch
+from golf_sim_ros.physics.engine import engines
 from golf_sim_ros.physics.jit import GENERICS, ROLES, build
 from golf_sim_ros.physics.jit.build import Build, FAILED, Part, READY
 

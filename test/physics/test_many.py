@@ -5,7 +5,7 @@ from multiprocessing import get_context
 
 from driving_range import TURF, level
 from golf_sim_ros.physics import simulate_many
-from golf_sim_ros.physics.engine import batch
+from golf_sim_ros.physics import batch
 import numpy as np
 import pytest
 

@@ -4,7 +4,7 @@ from math import pi
 from typing import NamedTuple
 
 from ..mechanics.vector import add, length, scale, sub
-from ..response.water_impact import ADDED_MASS, WATER_DENSITY
+from ..properties.water import ADDED_MASS, WATER_DENSITY
 from . import protocol
 
 # Of a smooth sphere at Reynolds numbers of 1e3 to 2e5, those of a sinking golf ball being about 2e4

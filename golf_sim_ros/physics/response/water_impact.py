@@ -4,11 +4,11 @@ from math import asin, pi, sqrt
 
 from ..jit import kernel, shared
 from ..mechanics.vector import ZERO, dot, length, put, scale, sub, vector
+from ..properties.water import ADDED_MASS, WATER_DENSITY
 from ..state.ball import FLIGHT, NO_PART, WATER, moves
 from ..state.events import WET, next_event
 from ..trajectory.shot_record import note_landing
 
-WATER_DENSITY = 998.0  # kg/m^3, fresh, at 20 degrees Celsius
 # Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998) 15-24: a
 # sphere comes off water that it meets at less than 18 degrees over the root of its specific gravity. For a
 # golf ball that is 16.9 degrees.
@@ -19,7 +19,6 @@ SKIPS_AT = 10.0  # m/s
 KEPT_ALONG = 0.7
 KEPT_UPWARD = 0.6
 KEPT_SPIN = 0.5
-ADDED_MASS = 0.5  # of the water that a sphere displaces: so much goes along with it
 DEEP = 2.0  # radii below the surface
 SLOW = 0.5  # m/s: a golf ball sinks at 0.4
 DEEPEST = 5.0  # m: further down no ball is followed

@@ -4,16 +4,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import jit
-from ..jit.build import READY
-from ..response.contact_set import disperse
-from ..result import summary
-from ..scene.course_record import Course
-from ..state.ball import ENDED
-from ..trajectory.shot_record import NOT_FINITE, fail, keep_end, tee_off
-from ..world import World
-from .engines import LOG, Program
-from .event_loop import play_all
+from . import jit
+from .engine.engines import LOG, Program
+from .engine.event_loop import play_all
+from .jit.build import READY
+from .response.contact_set import disperse
+from .result import summary
+from .scene.course_record import Course
+from .state.ball import ENDED
+from .trajectory.shot_record import NOT_FINITE, fail, keep_end, tee_off
+from .world import World
 
 PART = 5000  # shots between two looks at the progress
 FEW_SHOTS, MANY_SHOTS = 20, 200  # plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute
