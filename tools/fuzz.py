@@ -15,10 +15,12 @@ import time
 
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / 'tools')]
-from fuzz_scenes import played  # noqa: E402
+from fuzz_scenes import exercise, played  # noqa: E402
+from golf_sim_ros.course import load_course, shipped_courses  # noqa: E402
 
 SEED = 20  # the first of the seeds of a run; each scene has its own
 PATIENCE = 120.0  # s of wall time, after which a scene hangs
+COMPILING = 900.0  # s of wall time, after which the compiler hangs
 MEMORY = 100.0  # MB that a worker may grow by in the second half of the scenes: before it compiles
 
 
@@ -28,7 +30,14 @@ def memory():
 
 
 def work(pipe):
-    """Play the scenes whose seeds come through `pipe`, and answer with their outcomes."""
+    """Play the scenes whose seeds come through `pipe`, and answer with their outcomes.
+
+    First of all both programs are compiled, of one ball and of several: a hang is to be one of a scene.
+    """
+    course = load_course(shipped_courses()['links'])
+    for names in ('ball',), ('ball', 'other'):
+        exercise(course, names, 'standard')
+    pipe.send(memory())
     while True:
         seed = pipe.recv()
         if seed is None:
@@ -50,21 +59,20 @@ class Worker:
         self.process = context.Process(target=work, args=(other,), daemon=True)
         self.process.start()
         other.close()
-        self.first = True
+        if self.pipe.poll(COMPILING):
+            self.pipe.recv()
 
     def play(self, seed):
         """Outcome and memory of a scene; a hang or a death is an outcome, too, and ends the worker."""
-        patience = PATIENCE + (400.0 if self.first else 0.0)  # the first one compiles
         self.pipe.send(seed)
         try:
-            if self.pipe.poll(patience):
-                self.first = False
+            if self.pipe.poll(PATIENCE):
                 return self.pipe.recv()
-            trouble = f'hangs for {patience:g} s'
+            trouble = f'hangs for {PATIENCE:g} s'
         except EOFError:
             trouble = 'the process died'
         self.end()
-        return (None, (), patience, trouble), 0.0
+        return (None, (), PATIENCE, trouble), 0.0
 
     def end(self):
         """End the process."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from .state.ball import Phase
 from .state.serialize import plain_rows
-from .trajectory.shot_record import ENDLESS, MOST_PIECES, NOT_FINITE
+from .trajectory.shot_record import EASY, ENDLESS, MOST_PIECES, NOT_FINITE
 
 
 class Collision(NamedTuple):
@@ -72,7 +72,7 @@ KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.l
 STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds',
           Phase.FAILED: 'failed'}
 FAULTS = {NOT_FINITE: 'its motion was not a number any more',
-          ENDLESS: f'its path took more than {MOST_PIECES} pieces in a second'}
+          ENDLESS: f'its path took more than {MOST_PIECES} pieces beyond {EASY:.0f} a second'}
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
 ENDED_AS = np.array([STATUS.get(phase, MOVING) for phase in Phase])

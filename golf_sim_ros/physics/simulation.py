@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .engine.batch import Batch, batch_engine, played, progress_bar
+from .batch import Batch, batch_engine, played, progress_bar
 from .engine.engines import checked_engine
 from .geometry import surfaces
 from .mechanics.vector import ZERO

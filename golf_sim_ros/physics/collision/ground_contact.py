@@ -22,6 +22,9 @@ NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
 PILE_NEAR = 5e-5  # m: the same in a pile, of balls too
 GENTLE = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
 SAME = 1e-9  # m: distances that differ less are those of the same point
+ESCAPE = 1e-9  # m: so far a ball that leaves a hollow may move before it is looked at again
+MANY_STEPS = 100  # after which the bound on the speed all along is taken for too rough
+LOOK = 1.0 / 32.0  # of the work of a segment elsewhere: so much is a look at one part
 FEW = 4  # steps, after which it is worth looking whether a part's nearest face is the same all along
 CROWD = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
 BARELY = 1e-7  # s: a ball that leaves an edge sooner has left it
@@ -51,7 +54,7 @@ def over_plane(ground, part, ball, radius):
 @kernel
 def past_hollows(hollow, distance, gap, rate, bend, fastest):
     """`safe_advance` over a part with hollows of curvature `hollow`, `distance` from the ball's centre."""
-    sure = gap / (fastest + 1e-9)
+    sure = (gap if gap > TOUCH else ESCAPE) / (fastest + 1e-9)
     tube = 0.5 / hollow - distance
     if tube <= 0.0:
         return sure
@@ -106,7 +109,11 @@ def submerged(ground, part, ball, radius, time, until, gap, bend, hollow):
 
 @kernel
 def first_touch(ground, part, ball, radius, begin, until):
-    """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then."""
+    """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then.
+
+    Writes pieces.
+    """
+    work = LOOK * surfaces.effort(ground, part)
     hollow = surfaces.hollow(ground, part)
     fastest = greatest_speed(ball) if hollow > 0.0 else 0.0
     span = ball['span']
@@ -119,6 +126,7 @@ def first_touch(ground, part, ball, radius, begin, until):
         bend = greatest_acceleration(ball)
     time = begin
     for step in range(MOST_STEPS):
+        ball['pieces'] += work
         if level:
             gap, rate = height(over, span, time)
         else:
@@ -143,7 +151,10 @@ def first_touch(ground, part, ball, radius, begin, until):
                     return until, False
                 continue
         if hollow > 0.0:
-            time += past_hollows(hollow, distance, gap, rate, bend, fastest)
+            sure = past_hollows(hollow, distance, gap, rate, bend, fastest)
+            if step > MANY_STEPS:  # a slow ball on a piece at whose end it is fast
+                sure = max(sure, safe_advance(gap, -length(velocity(ball, time)), bend))
+            time += sure
         else:
             if step == FEW and not level and sees_one(ground, part, ball, normal):
                 level = True
@@ -165,6 +176,7 @@ def first_contact(ground, ball, radius, until, on):
     `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
     under it, where surfaces in that plane, and edges met tangentially, are seams and no obstacles;
     ON_EDGE the edge that supports it; ON_CURVE the smooth surface; CAUGHT all that holds it.
+    Writes pieces.
     """
     begin = 0.0
     stretch = until
@@ -172,6 +184,7 @@ def first_contact(ground, ball, radius, until, on):
     while begin < until:
         end = min(begin + stretch, until)
         low, high = box(ball, begin, end, radius)
+        ball['pieces'] += LOOK
         if is_long(low, high, SHORT * radius) and is_crowded(ground, low, high):
             stretch = 0.5 * (end - begin)
             continue
@@ -205,6 +218,7 @@ def first_in_box(ground, ball, radius, begin, end, low, high, on):
     foot = along(vector(ball['position']), -radius, vector(ball['normal']))
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
+        ball['pieces'] += LOOK
         if not is_passed(ground, part, ball, radius, foot, best, on):
             time, touches = first_touch(ground, part, ball, radius, begin, best)
             if touches and on == ON_FLAT:

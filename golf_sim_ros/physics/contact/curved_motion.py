@@ -24,7 +24,7 @@ FIRST_STEP = 0.02  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s
 CORRECTIONS = 12  # of a step's length
-WORK = 4  # pieces of a path elsewhere: so much is each of them (shot.MOST_PIECES)
+WORK = 1  # pieces of a path elsewhere: so much is each of them, times the effort of the ground
 LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
 APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
 SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
@@ -62,8 +62,9 @@ def bent_piece(model, ball, now):
     if in_tail(ball, now):
         h = min(h, ball['tail_end'] - now)
     slipping = slip(v, vector(ball['spin']), vector(ball['normal']), land.ball.radius)
+    work = WORK * surfaces.effort(land.ground, ball['support'])
     for _ in range(CORRECTIONS):
-        ball['pieces'] += WORK
+        ball['pieces'] += work
         ball['step'] = h
         step(model, ball)
         following = ball['step']

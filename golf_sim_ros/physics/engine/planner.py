@@ -87,7 +87,7 @@ def lay_next(model, ball, now):
 @kernel
 def end_piece(model, ball, now, until):
     """Let the piece end after `until`, or when time ends it. Writes end, ending, stuck."""
-    ball['end'] = now + until
+    ball['end'] = now + max(until, 0.0)
     if ball['piled'] and ball['ending'] == STEP and ball['end'] > next_instant(now) - 1e-9:
         ball['end'] = next_instant(now)  # the same number for all
     ball['stuck'] = ball['stuck'] + 1 if ball['end'] <= now else 0

@@ -11,6 +11,7 @@ MOST_STEPS = 60
 DONE = 1e-13  # of the spacing: steps shorter than this change nothing
 SURE = 1e-6  # of the spacing: where a step is so short, Newton's method is left alone
 SAMPLES = 5  # a side, to start from where there may be several nearest places
+FAR = (1e300, 1e300, 1e300, 1e300, 1e300)
 
 
 @kernel
@@ -132,18 +133,16 @@ def foot(table, grid, box, bend, point):
     best_y = min(max(point[1], y0), y1)
     best_x, best_y, best_at = descend(table, grid, box, best_x, best_y, point)
     best = half_square(point, best_x, best_y, best_at[0])
+    before = after = FAR
+    here = samples(table, grid, box, point, 0)
     for i in range(SAMPLES):
+        after = samples(table, grid, box, point, i + 1) if i < SAMPLES - 1 else FAR
         for j in range(SAMPLES):
+            if (before[j] < here[j] or after[j] < here[j] or j > 0 and here[j - 1] < here[j]
+                    or j < SAMPLES - 1 and here[j + 1] < here[j]):
+                continue
             x = x0 + (x1 - x0) * i / (SAMPLES - 1.0)
             y = y0 + (y1 - y0) * j / (SAMPLES - 1.0)
-            here = sample(table, grid, point, x, y)
-            dx = (x1 - x0) / (SAMPLES - 1.0)
-            dy = (y1 - y0) / (SAMPLES - 1.0)
-            if (i > 0 and sample(table, grid, point, x - dx, y) < here
-                    or i < SAMPLES - 1 and sample(table, grid, point, x + dx, y) < here
-                    or j > 0 and sample(table, grid, point, x, y - dy) < here
-                    or j < SAMPLES - 1 and sample(table, grid, point, x, y + dy) < here):
-                continue
             x, y, at = descend(table, grid, box, x, y, point)
             far = half_square(point, x, y, at[0])
             if far < best:
@@ -151,7 +150,21 @@ def foot(table, grid, box, bend, point):
                 best_x = x
                 best_y = y
                 best_at = at
+        before = here
+        here = after
     return best_x, best_y, best_at
+
+
+@shared
+def samples(table, grid, box, point, i):
+    """Half the squared distances of `point` from the places of row `i` of the samples."""
+    x0, y0, x1, y1 = box
+    x = x0 + (x1 - x0) * i / (SAMPLES - 1.0)
+    y = y1 - y0
+    return (sample(table, grid, point, x, y0), sample(table, grid, point, x, y0 + y * 1 / (SAMPLES - 1.0)),
+            sample(table, grid, point, x, y0 + y * 2 / (SAMPLES - 1.0)),
+            sample(table, grid, point, x, y0 + y * 3 / (SAMPLES - 1.0)),
+            sample(table, grid, point, x, y0 + y * 4 / (SAMPLES - 1.0)))
 
 
 @shared

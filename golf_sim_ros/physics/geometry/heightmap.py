@@ -26,6 +26,7 @@ from .closest_point import curvatures, foot, held, pulls
 from .plane_patch import SAME_HEIGHT
 
 WIDE = 10.0  # 1/m: hollows bent less than this hold a ball of 5 cm at one place only, with room to spare
+SEVERAL = 32  # the effort of a cell of which several places may be nearest
 ON_SEAM = 1e-9  # rad: so far from upright above a seam a ball is above both cells
 
 
@@ -316,6 +317,14 @@ def _touchable(kind, part, point):
 def _hollow(kind, part):
     grid = kind.grids[grid_of(kind, part)]
     return grid['hollow'] if part == grid['number'] else kind.cells[bounds_of(kind, part), 2]
+
+
+@surface_protocol.effort.register(Maps)
+def _effort(kind, part):
+    if part >= len(kind.cells):
+        return 1
+    cell = kind.cells[part]
+    return SEVERAL if cell[3] * (cell[1] - cell[0]) >= 1.0 else 1
 
 
 @surface_protocol.support_of.register(Maps)

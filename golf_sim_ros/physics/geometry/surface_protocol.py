@@ -55,6 +55,12 @@ def hollow(kind, part):
 
 
 @generic
+def effort(kind, part):
+    """What it takes to find the place of `part` that is nearest to a ball near it, of a plane's 1."""
+    return 1
+
+
+@generic
 def touchable(kind, part, point):
     """Whether the surface exists where `part` is nearest to `point`, seen from there."""
     return True

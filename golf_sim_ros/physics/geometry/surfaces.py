@@ -67,6 +67,7 @@ def of_its_kind(law, otherwise):
 nearest = of_its_kind(surface_protocol.nearest, (1e300, (0.0, 0.0, 1.0)))
 turn = of_its_kind(surface_protocol.turn, ZERO)
 hollow = of_its_kind(surface_protocol.hollow, 0.0)
+effort = of_its_kind(surface_protocol.effort, 1)
 flat_under = of_its_kind(surface_protocol.flat_under, False)
 in_plane = of_its_kind(surface_protocol.in_plane, False)
 is_plane = of_its_kind(surface_protocol.is_plane, False)

@@ -72,8 +72,8 @@ BALL = np.dtype([
     ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
     ('bounces', 'i8'), ('stalled', 'i8'), ('stuck', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
-    # why its shot failed; since when, for a second, its pieces are counted, and how many they are
-    ('failed', 'i8'), ('counted_from', 'f8'), ('pieces', 'i8'),
+    # why its shot failed; until when its pieces are counted, and how many there were too many of late
+    ('failed', 'i8'), ('counted_from', 'f8'), ('pieces', 'f8'),
     # how often it was struck since it was teed
     ('strokes', 'i8'),
 ], align=True)
