@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Materials: the shipped ones, one YAML file each, and those that a course adds or changes."""
-from ..physics.geometry.cup import CUP
-from ..physics.geometry.solid import FLAGSTICK
+from ..physics.geometry.cup import CUP_MATERIAL
+from ..physics.geometry.solid import FLAGSTICK_MATERIAL
 from ..physics.properties.material import Material, PENNER, Restitution, rolling_resistance_of_stimp
 from .package_files import share
 from .schema import CourseError, below, fields, mapping, number, record, tagged, text, unknown, vector
@@ -48,7 +48,7 @@ def entry(value, key, checkers=FIELDS):
 def shipped():
     """Entries of the shipped materials by name, cup and flagstick too, and the bytes of their files."""
     entries = {made.name: {name: value for name, value in made._asdict().items() if name != 'name'}
-               for made in (CUP, FLAGSTICK)}
+               for made in (CUP_MATERIAL, FLAGSTICK_MATERIAL)}
     sources = {}
     for path in sorted(share('config', 'materials').glob('*.yaml')):
         sources[path.stem], content = read_yaml(path)

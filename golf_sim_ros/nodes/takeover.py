@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """When the compiled engine takes over from plain Python: where the play calls for it, between shots."""
 from ..physics import EngineUnavailable
-from ..physics.jit.build import FAILED, READY, missing
+from ..physics.jit.build import BUILD_FAILED, READY, missing
 
 A_THIRD = 1.0 / 3.0  # of a core, for a play: above that a compiler is worth its while
 LEAST = 2.0  # s of motion before the share means anything
@@ -34,7 +34,7 @@ class Takeover:
         if not self.is_open:
             return self._why
         taken = f'the play in plain Python takes {self.share:.0%} of a core'
-        if self.build is None or self.build.state in (READY, FAILED):
+        if self.build is None or self.build.state in (READY, BUILD_FAILED):
             return taken
         return f'{taken}; {self.build.state}, {self.build.progress:.0%} done'
 
@@ -70,7 +70,7 @@ class Takeover:
         """Take over if the compiled engine is ready; to be called while every ball rests."""
         if not self.is_open or self.build is None or not self.build.wait(0.0):
             return
-        if self.build.state == FAILED:
+        if self.build.state == BUILD_FAILED:
             self.stay(self.build.reason)
             return
         self.world.engine, self.is_open = 'compiled', False
@@ -93,7 +93,7 @@ def load_compiled(world, log):
     build = world.build(urgent=True)
     while not build.wait(WAITS_TO_TELL):
         log.info(f'waiting for the physics to be compiled, once a machine: {build.progress:.0%} done')
-    if build.state == FAILED:
+    if build.state == BUILD_FAILED:
         raise ValueError(f"engine 'compiled' cannot be had: {build.reason}")
     try:
         world.engine = 'compiled'

@@ -8,11 +8,11 @@ from . import jit
 from .engine.engines import LOG, Program
 from .engine.event_loop import play_all
 from .jit.build import READY
-from .response.contact_set import disperse
+from .response.contact_set import clear_set
 from .result import summary
 from .scene.course_record import Course
 from .state.ball import ENDED
-from .trajectory.shot_record import NOT_FINITE, fail, keep_end, tee_off
+from .trajectory.shot_record import NOT_FINITE, fail, copy_result, begin_shot
 from .world import World
 
 PART = 5000  # shots between two looks at the progress
@@ -72,14 +72,14 @@ def ends(play, scene, strikes):
         with np.errstate(all='ignore'):
             return play(model, balls, strikes, gusts, crowd, log)
     except (ArithmeticError, ValueError):
-        disperse(crowd)
+        clear_set(crowd)
         if len(strikes) > 1:
             return np.concatenate([ends(play, scene, part) for part in np.array_split(strikes, 2)])
     ball, end = balls[0].copy(), np.empty(1, ENDED)
     ball['velocity'], ball['spin'] = strikes[0, :3], strikes[0, 3:]
-    tee_off(ball, 0.0)
+    begin_shot(ball, 0.0)
     fail(ball, 0, 0.0, NOT_FINITE, log)
-    keep_end(ball, end[0])
+    copy_result(ball, end[0])
     return end
 
 

@@ -7,13 +7,13 @@ import numpy as np
 
 from .state.ball import Phase
 from .state.serialize import plain_rows
-from .trajectory.shot_record import EASY, ENDLESS, MOST_PIECES, NOT_FINITE
+from .trajectory.shot_record import SUSTAINED_WORK, TOO_MUCH_WORK, MOST_WORK, NOT_FINITE
 
 
 class Collision(NamedTuple):
     """An impact of more than 0.1 m/s approach; SI units, the course's frame.
 
-    ``kind`` is one of `KINDS`, ``with_`` a material's or a ball's name, ``normal`` points out of what was
+    ``kind`` is one of `COLLISION_KINDS`, ``with_`` a material's or a ball's name, ``normal`` points out of what was
     hit and ``impulse`` [N s] acted on ``ball``.
     """
 
@@ -68,11 +68,11 @@ class Result(NamedTuple):
 
 
 COSTS = ('water', 'out_of_bounds')  # a stroke: Rules of Golf 17.1d and 18.2b
-KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.laws.sort
+COLLISION_KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.laws.sort
 STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds',
           Phase.FAILED: 'failed'}
 FAULTS = {NOT_FINITE: 'its motion was not a number any more',
-          ENDLESS: f'its path took more than {MOST_PIECES} pieces beyond {EASY:.0f} a second'}
+          TOO_MUCH_WORK: f'its path took more than {MOST_WORK} pieces beyond {SUSTAINED_WORK:.0f} a second'}
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
 ENDED_AS = np.array([STATUS.get(phase, MOVING) for phase in Phase])

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .collision.ground_contact import PILE_NEAR
-from .collision.workspace import AGE, MEMBERS, scratch
+from .collision.ground_contact import RESTING_GAP
+from .collision.workspace import TREE_AGE, INVOLVED, new_workspace
 from .effects import Scene, choose
 from .engine.engines import PYTHON, Program, checked_engine, compiled
 from .engine.event_loop import LOG_FULL, STAGES
@@ -16,14 +16,14 @@ from .geometry import surfaces
 from .geometry.solid import FLAGSTICK_RADIUS, without
 from .jit.build import Part
 from .mechanics.vector import ZERO
-from .result import Collision, KINDS, failure, objection, result, three
+from .result import Collision, COLLISION_KINDS, failure, objection, result, three
 from .scene import kernel_model as model_
 from .scene.presets import preset
-from .state.ball import (BALL, FAILED, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, Phase, REST, ROLL, SLIDE, STEP,
+from .state.ball import (BALL, FAILED, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, Phase, REST, ROLL, SLIDE, STEP_END,
                          WATER, moves)
-from .state.events import BUMP, GONE, LOST, SHOT_ENDS, WET, new_log
+from .state.events import BALL_HIT, WENT_OUT, LOST, SHOT_ENDS, WATER_HIT, new_log
 from .state.serialize import plain, plain_rows, restored
-from .trajectory.shot_record import NOT_FINITE, fail, tee_off
+from .trajectory.shot_record import NOT_FINITE, fail, begin_shot
 
 APART = 0.5  # m between balls on the tee
 CLEAR = 2.2  # radii from centre to centre, of a ball that is dropped beside another
@@ -99,7 +99,7 @@ class World:
         self._engine = compiled() if engine == 'compiled' else PYTHON
         self._program = None  # of the compiled engine, if that may take over
         self._rebuild()
-        self._crowd = scratch(len(self.names), 'ball_ball' in self.effects_on)
+        self._crowd = new_workspace(len(self.names), 'ball_ball' in self.effects_on)
         if engine == 'auto':
             self._program = Program.of(self.program)
         self._tee_up()
@@ -278,7 +278,7 @@ class World:
             raise NoPlace(f'position {position} is taken by another ball')
         self._settle_clock()
         self._let_lean_no_more(number)
-        self._crowd.count[AGE] = len(self.names)
+        self._crowd.count[TREE_AGE] = len(self.names)
         if ball['phase'] == HOLED:  # the next hole begins
             trial['strokes'] = 0
         self._balls[number] = trial
@@ -292,7 +292,7 @@ class World:
         balls = self._balls
         apart = np.linalg.norm(balls['position'] - balls['position'][number], axis=1)
         leaning = (balls['phase'] == REST) & (balls['leans'] != 0) & (
-            apart <= 2.0 * (self._model.land.ball.radius + PILE_NEAR))
+            apart <= 2.0 * (self._model.land.ball.radius + RESTING_GAP))
         leaning[number] = False
         balls['end'][leaning], balls['ending'][leaning] = self._now, LAUNCH
         balls['knocked'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
@@ -347,7 +347,7 @@ class World:
         self.shots += 1
         ball['shot'], ball['velocity'], ball['spin'] = self.shots, velocity, spin
         ball['strokes'] += 1
-        tee_off(ball, self._now)
+        begin_shot(ball, self._now)
         self._let_happen(self._now)
 
     def _settle_clock(self):
@@ -356,7 +356,7 @@ class World:
             if self._program:
                 self._take_over()
             self._now = 0.0
-            self._crowd.count[AGE] = len(self.names)  # where balls are near each other is found out anew
+            self._crowd.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
 
     def set_wind(self, wind):
         """Let the air move with `wind` [m/s] at 10 m over the ground from now on.
@@ -378,7 +378,7 @@ class World:
         """End the pieces of flight now: the surroundings have changed."""
         flying = self._balls['phase'] == FLIGHT
         self._balls['end'][flying] = self._now
-        self._balls['ending'][flying] = STEP
+        self._balls['ending'][flying] = STEP_END
         self._balls['rated'][flying] = -1.0
 
     def advance(self, dt):
@@ -434,7 +434,7 @@ class World:
             with np.errstate(all='ignore'):
                 return run(self._model, self._balls, until, self._crowd, self._log)
         except (ArithmeticError, ValueError):
-            at_hand = self._crowd.members[:self._crowd.count[MEMBERS]].tolist()
+            at_hand = self._crowd.members[:self._crowd.count[INVOLVED]].tolist()
             if not at_hand:
                 raise
         self._fail(at_hand, min(until, self._crowd.ends[at_hand[0]]))
@@ -448,8 +448,8 @@ class World:
                 fail(ball, number, now, NOT_FINITE, self._log)
                 ball['end'] = inf
             self._crowd.places[number] = -1
-        self._crowd.count[:AGE] = 0, 0
-        self._crowd.count[AGE] = len(self.names)
+        self._crowd.count[:TREE_AGE] = 0, 0
+        self._crowd.count[TREE_AGE] = len(self.names)
 
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
@@ -471,12 +471,12 @@ class World:
 
     def _hit(self, kind, other, sort):
         """Kind of a logged collision, and name of the material or ball that was hit."""
-        if kind == BUMP:
+        if kind == BALL_HIT:
             return 'ball', self.names[other]
-        if kind == WET:
+        if kind == WATER_HIT:
             return 'water', 'water'
         lie = self._materials[other] if other >= 0 else ''
-        return ('out_of_bounds' if kind == GONE else KINDS[sort]), lie
+        return ('out_of_bounds' if kind == WENT_OUT else COLLISION_KINDS[sort]), lie
 
     def _drop(self, number, now):
         """Put a lost ball back where it was struck, or beside a ball that lies there by `now`.
@@ -484,7 +484,7 @@ class World:
         What moves begins new pieces, or it would not see the ball in its way; piles look often enough.
         """
         ball = self._balls[number]
-        self._crowd.count[AGE] = len(self.names)  # where it was is not where it will be
+        self._crowd.count[TREE_AGE] = len(self.names)  # where it was is not where it will be
         is_held = ball['phase'] == FAILED or three(ball['struck_at']) == self._pegs[number]
         ball['phase'], ball['end'] = REST, inf
         ball['playing'] = ball['knocked'] = ball['water'] = ball['leans'] = ball['piled'] = 0
@@ -499,7 +499,7 @@ class World:
         if not is_held:
             ball['end'], ball['ending'] = now, LAUNCH
         moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL)) & (self._balls['piled'] == 0)
-        self._balls['end'][moving], self._balls['ending'][moving] = now, STEP
+        self._balls['end'][moving], self._balls['ending'][moving] = now, STEP_END
 
     def _is_free(self, number, place):
         """Whether no ball but that of `number` lies so near to `place` that the two would overlap."""
@@ -534,7 +534,7 @@ class World:
         self.set_wind(state['wind'])
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
-        self._crowd.count[AGE] = len(self.names)  # where balls are near each other is found out anew
+        self._crowd.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
 
     def reset(self):
         """Put all balls back to the start.
@@ -545,7 +545,7 @@ class World:
             Shots under way, with status 'aborted'.
         """
         moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL))
-        self._balls['end'][moving], self._balls['ending'][moving] = self._now, STEP
+        self._balls['end'][moving], self._balls['ending'][moving] = self._now, STEP_END
         self._let_happen(self._now)
         aborted = []
         for ball, name in zip(self._balls, self.names):

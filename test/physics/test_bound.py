@@ -27,7 +27,7 @@ def groove():
 
 def ends():
     """Figures of the failed shot at each rate, in one long call, in `simulate` and among many."""
-    shot_.EASY, shot_.MOST_PIECES = EASY, FEW
+    shot_.SUSTAINED_WORK, shot_.MOST_WORK = EASY, FEW
     told = []
     for rate in RATES:
         world = World(groove())

@@ -445,7 +445,7 @@ def test_the_smallest_lift_off_ends_at_rest_on_the_ground(accuracy):
 @entry
 def time_at(u, pull, friction, time):
     """Time at the parameter that is found for `time`."""
-    motion = coulomb_deceleration.braked(u, pull, friction, (0.0, 0.0, 1.0))
+    motion = coulomb_deceleration.decelerated(u, pull, friction, (0.0, 0.0, 1.0))
     return coulomb_deceleration.after(motion, coulomb_deceleration.parameter_at(motion, time))[0]
 
 

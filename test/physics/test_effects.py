@@ -5,7 +5,7 @@ from math import isfinite
 
 from driving_range import HARD, TURF, level
 from golf_sim_ros.physics import ACCURACY, Air, EFFECTS, Shot, World, register_effect, simulate
-from golf_sim_ros.physics.effects import Scene, choose, felt_normal, flight_rates, protocol, pull
+from golf_sim_ros.physics.effects import Scene, choose, effective_normal, flight_rates, protocol, gravity_at
 from golf_sim_ros.physics.engine.engines import missing
 from golf_sim_ros.physics.jit import compiled, entry
 from golf_sim_ros.physics.scene.kernel_model import build, ground
@@ -113,8 +113,8 @@ def answers(name):
             place = (1.0, 2.0, height)
             velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))
             rates = flight_rates(model.effects, model.land.ground, place, velocity, spin)
-            told.append((*rates, pull(model.land.effects, place),
-                         felt_normal(model.land.effects, (0.0, 0.0, 1.0), velocity, 1.0)))
+            told.append((*rates, gravity_at(model.land.effects, place),
+                         effective_normal(model.land.effects, (0.0, 0.0, 1.0), velocity, 1.0)))
     return told
 
 

@@ -19,7 +19,7 @@ from golf_sim_ros.physics import Air, EngineUnavailable, PowerProfile, Shot, Wor
 from golf_sim_ros.physics import batch
 from golf_sim_ros.physics.engine import engines
 from golf_sim_ros.physics.jit import GENERICS, ROLES, build
-from golf_sim_ros.physics.jit.build import Build, FAILED, Part, READY
+from golf_sim_ros.physics.jit.build import Build, BUILD_FAILED, Part, READY
 
 needs_numba = pytest.mark.skipif(bool(engines.missing()), reason=engines.missing() or 'numba is here')
 COURSES = sorted(shipped_courses())
@@ -36,7 +36,7 @@ PATIENCE = 600.0  # s: a child of low priority, beside other tests
 def programs(monkeypatch):
     """No program is known in this process yet, and 'auto' means auto."""
     monkeypatch.setattr(engines.Program, 'known', {})
-    monkeypatch.delenv(engines.VARIABLE, raising=False)
+    monkeypatch.delenv(engines.ENGINE_VARIABLE, raising=False)
 
 
 def drive(world):
@@ -180,7 +180,7 @@ def test_a_compiler_that_aborts_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'is_kept', lambda key: False)
     monkeypatch.setattr(build, 'numba_version', lambda: 'numba 0.65.0')
     aborted = Build(True, Part('nothing', os.abort, ()))
-    assert aborted.wait(PATIENCE) and aborted.state == FAILED
+    assert aborted.wait(PATIENCE) and aborted.state == BUILD_FAILED
     assert aborted.reason.startswith('numba 0.65.0 could not compile the physics (killed by SIGABRT): ')
     assert '\n' not in aborted.reason
 
@@ -191,7 +191,7 @@ def test_a_compiler_that_raises_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'is_kept', lambda key: False)
     monkeypatch.setattr(build, 'numba_version', lambda: 'numba 0.65.0')
     raised = Build(True, Part('nothing', json.loads, ('{',)))
-    assert raised.wait(PATIENCE) and raised.state == FAILED
+    assert raised.wait(PATIENCE) and raised.state == BUILD_FAILED
     assert '(exit code 1): json.decoder.JSONDecodeError: Expecting property name' in raised.reason
 
 
@@ -200,7 +200,7 @@ def test_where_nothing_can_be_kept_nothing_is_compiled(monkeypatch, tmp_path):
     monkeypatch.setenv('GOLF_SIM_ROS_CACHE', str(tmp_path / 'file'))
     monkeypatch.setattr(build, 'missing', lambda: '')
     nowhere = Build(True, Part('nothing', os.abort, ()))
-    assert nowhere.wait(PATIENCE) and nowhere.state == FAILED
+    assert nowhere.wait(PATIENCE) and nowhere.state == BUILD_FAILED
     assert nowhere.reason.startswith('GOLF_SIM_ROS_CACHE: ')
 
 

@@ -18,7 +18,7 @@ def outcomes():
     """Outcome of each seed's scene."""
     sys.path.append(str(TOOLS))
     import fuzz_scenes
-    shot_.MOST_PIECES, fuzz_scenes.MOST_TIME = FEW, float('inf')
+    shot_.MOST_WORK, fuzz_scenes.MOST_TIME = FEW, float('inf')
     told = []
     for seed in SEEDS:
         with TemporaryDirectory() as folder:

@@ -41,7 +41,7 @@ class FixedDormandPrince(NamedTuple):
 
 def with_fixed_dormand_prince():
     """Register it, as a package of its own would."""
-    runge_kutta.table.register(FixedDormandPrince)(dormand_prince._table)
+    runge_kutta.tableau.register(FixedDormandPrince)(dormand_prince._table)
     runge_kutta.first_step.register(FixedDormandPrince)(
         lambda method, speed, hop, most: (method.length, False))
     return FixedDormandPrince

@@ -18,20 +18,20 @@ from ..engine.engines import best
 from ..geometry import surfaces
 from ..integrators.euler import SemiImplicitEuler
 from ..jit import borrowed, entry, kernel
-from ..mechanics.vector import ZERO, along, dot, length, put, scale, tangential, vector
+from ..mechanics.vector import ZERO, add_scaled, dot, length, store, scale, tangential, load
 from ..properties.material import restitution
 from ..scene import kernel_model as model_
 from ..scene.kernel_model import Limits
 from ..scene.presets import Preset
 from ..simulation import checked_gusts, checked_strikes
 from ..state.ball import FLIGHT, REST
-from ..trajectory.shot_record import note_landing, tee_off
+from ..trajectory.shot_record import record_landing, begin_shot
 from ..world import World
 
-STEP = 1 / 50  # s, Unity's default physics step
-KEPT_SPIN = 0.7  # of the spin, in an impact
+REPORT_STEP = 1 / 50  # s, Unity's default physics step
+SPIN_AFTER_BOUNCE = 0.7  # of the spin, in an impact
 STOPPED = 0.1  # m/s on the ground
-LONGEST = 300.0  # s
+LONGEST_REPORT_SHOT = 300.0  # s
 
 
 class WindForce(NamedTuple):
@@ -43,15 +43,15 @@ class WindForce(NamedTuple):
 
 @protocol.acceleration.register(WindForce)
 def _acceleration(effect, flow):
-    return scale(effect.rate * max(flow.position[2], 0.0), vector(effect.velocity))
+    return scale(effect.rate * max(flow.position[2], 0.0), load(effect.velocity))
 
 
-@protocol.take_wind.register(WindForce)
+@protocol.set_wind.register(WindForce)
 def _take_wind(effect, wind):
-    put(effect.velocity, wind)
+    store(effect.velocity, wind)
 
 
-REPORT_2019 = Preset(SemiImplicitEuler(STEP), Limits(STOPPED, 1.0))
+REPORT_2019 = Preset(SemiImplicitEuler(REPORT_STEP), Limits(STOPPED, 1.0))
 
 
 def play_report_2019(course, velocities, spins, wind=ZERO):
@@ -86,13 +86,13 @@ def _play(model, ball, strikes, absorbs):
     for i in range(len(strikes)):
         ends[i] = ball[0]
         one = ends[i]
-        put(one['velocity'], vector(strikes[i, 0:3]))
-        put(one['spin'], vector(strikes[i, 3:6]))
-        tee_off(one, 0.0)
+        store(one['velocity'], load(strikes[i, 0:3]))
+        store(one['spin'], load(strikes[i, 3:6]))
+        begin_shot(one, 0.0)
         one['phase'] = FLIGHT
         time = 0.0
-        while one['phase'] == FLIGHT and time < LONGEST:
-            time += STEP
+        while one['phase'] == FLIGHT and time < LONGEST_REPORT_SHOT:
+            time += REPORT_STEP
             move(model, one)
             push_out(model.land, one, time, absorbs)
     return ends
@@ -101,29 +101,29 @@ def _play(model, ball, strikes, absorbs):
 @kernel
 def move(model, ball):
     """One step of semi-implicit Euler: velocity first. Writes position and velocity."""
-    x = vector(ball['position'])
-    v = vector(ball['velocity'])
-    force, _ = flight_rates(model.effects, model.land.ground, x, v, vector(ball['spin']))
-    v = along(v, STEP, force)
-    put(ball['velocity'], v)
-    put(ball['position'], along(x, STEP, v))
+    x = load(ball['position'])
+    v = load(ball['velocity'])
+    force, _ = flight_rates(model.effects, model.land.ground, x, v, load(ball['spin']))
+    v = add_scaled(v, REPORT_STEP, force)
+    store(ball['velocity'], v)
+    store(ball['position'], add_scaled(x, REPORT_STEP, v))
 
 
 @kernel
 def push_out(land, ball, time, absorbs):
     """Push the ball out of what it is in, and let it bounce. Writes motion and phase."""
-    low, high = surfaces.around(vector(ball['position']), land.ball.radius)
+    low, high = surfaces.around(load(ball['position']), land.ball.radius)
     part = surfaces.next_part(land.ground, 0, low, high)
     while part >= 0:
-        x = vector(ball['position'])
+        x = load(ball['position'])
         distance, normal = surfaces.nearest(land.ground, part, x)
         if distance < land.ball.radius and surfaces.touchable(land.ground, part, x):
-            put(ball['position'], along(x, land.ball.radius - distance, normal))
-            if dot(vector(ball['velocity']), normal) < 0.0:
-                note_landing(ball, time)
+            store(ball['position'], add_scaled(x, land.ball.radius - distance, normal))
+            if dot(load(ball['velocity']), normal) < 0.0:
+                record_landing(ball, time)
                 number = surfaces.material_of(land.ground, part, x)
                 rebound(ball, land.materials[number], absorbs[number], normal)
-                if length(vector(ball['velocity'])) < STOPPED:
+                if length(load(ball['velocity'])) < STOPPED:
                     ball['phase'] = REST
         part = surfaces.next_part(land.ground, part + 1, low, high)
 
@@ -131,16 +131,16 @@ def push_out(land, ball, time, absorbs):
 @kernel
 def rebound(ball, material, absorbs, normal):
     """Restitution, friction against the velocity, loss of spin. Writes velocity and spin."""
-    v = vector(ball['velocity'])
+    v = load(ball['velocity'])
     approach = -dot(v, normal)
     sideways = tangential(v, normal)
     if absorbs:
-        put(ball['velocity'], ZERO)
-        put(ball['spin'], ZERO)
+        store(ball['velocity'], ZERO)
+        store(ball['spin'], ZERO)
         return
     e = restitution(material, approach)
     # Friction can only slow the ball: in the report it gives no torque.
     lost = min(material['dynamic_friction'] * (1.0 + e) * approach, length(sideways))
     left = 1.0 - lost / length(sideways) if length(sideways) > 0.0 else 0.0
-    put(ball['velocity'], along(scale(left, sideways), e * approach, normal))
-    put(ball['spin'], scale(KEPT_SPIN, vector(ball['spin'])))
+    store(ball['velocity'], add_scaled(scale(left, sideways), e * approach, normal))
+    store(ball['spin'], scale(SPIN_AFTER_BOUNCE, load(ball['spin'])))

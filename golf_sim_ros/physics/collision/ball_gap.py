@@ -3,24 +3,24 @@
 from math import sqrt
 
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, add, dot, length, sub, unit, vector
-from ..state.ball import HOLED, MEETING, PILED, REST, STEP, moves
+from ..mechanics.vector import ZERO, add, dot, length, sub, unit, load
+from ..state.ball import HOLED, BALL_IMPACT, STEPPED, REST, STEP_END, moves
 from ..trajectory import segment
 from . import ball_interactions
 from .broad_phase import next_node
-from .conservative_advancement import MOST_STEPS, SHORT, TANGENTIAL, TOUCH, box, is_long, safe_advance
-from .ground_contact import PILE_NEAR
-from .workspace import Crowd
+from .conservative_advancement import MOST_ADVANCES, SHORT_BOX, TANGENTIAL, TOUCH, swept_box, is_long, advancement_bound
+from .ground_contact import RESTING_GAP
+from .workspace import MultiBallWorkspace
 
 UP = (0.0, 0.0, 1.0)
-MANY = 6  # balls: so many in the box around a stretch of path are worth a shorter stretch
-STEADY = 0.02  # m/s of approach: so much gravity gives in a step of a pile
+MANY_STEPPED = 6  # balls: so many in the box around a stretch of path are worth a shorter stretch
+RESTING_APPROACH = 0.02  # m/s of approach: so much gravity gives in a step of a pile
 
 
 @kernel
-def place_at(ball, now):
+def position_at(ball, now):
     """Where the ball is at `now`, on its present piece."""
-    return segment.position(ball, now - ball['begin']) if moves(ball['phase']) else vector(ball['position'])
+    return segment.position(ball, now - ball['begin']) if moves(ball['phase']) else load(ball['position'])
 
 
 @kernel
@@ -32,40 +32,40 @@ def velocity_at(ball, now):
 @kernel
 def gap_between(a, b, radius, now):
     """Gap between two balls at `now`, its rate, and the direction from `b` to `a`."""
-    apart = sub(place_at(a, now), place_at(b, now))
+    apart = sub(position_at(a, now), position_at(b, now))
     normal = unit(apart, UP)
     rate = dot(normal, sub(velocity_at(a, now), velocity_at(b, now)))
     return length(apart) - 2.0 * radius, rate, normal
 
 
 @kernel
-def usual_bend(ball):
+def acceleration_at_start(ball):
     """Acceleration as the ball's piece begins, and how far it strays from that, at most."""
-    usual = segment.bend(ball, 0) if moves(ball['phase']) else ZERO
-    return usual, strays_from(ball, usual)
+    usual = segment.acceleration_coefficient(ball, 0) if moves(ball['phase']) else ZERO
+    return usual, acceleration_deviation(ball, usual)
 
 
 @kernel
-def strays_from(ball, acceleration):
+def acceleration_deviation(ball, acceleration):
     """How far the ball's acceleration on its piece is from another, at most."""
     if not moves(ball['phase']):
         return length(acceleration)
     most = 0.0
     for i in range(4):
-        off = sub(segment.bend(ball, i), acceleration)
+        off = sub(segment.acceleration_coefficient(ball, i), acceleration)
         most = max(most, dot(off, off))
     return sqrt(most)
 
 
 @kernel
-def stays_clear(here, other, bend, radius, now, until):
+def cannot_touch(here, other, bend, radius, now, until):
     """Whether a ball whose place and velocity are `here` can't touch another one from `now` to `until`.
 
     The gap stays above a parabola (see conservative_advancement.py), lowest at its ends. Without a division:
     it is asked of all that come near, and is true of nearly all.
     """
     place, velocity = here
-    apart = sub(place, place_at(other, now))
+    apart = sub(place, position_at(other, now))
     size = length(apart)
     time = until - now
     room = size - 2.0 * radius
@@ -74,7 +74,7 @@ def stays_clear(here, other, bend, radius, now, until):
 
 
 @kernel
-def part_from(a, b, radius, now, until):
+def separation_time_of_balls(a, b, radius, now, until):
     """Time at which two balls that touch without approach are clear of each other, or `now` if they press."""
     wait = 1e-9
     while now + wait < until and wait < 1e-2:
@@ -88,64 +88,64 @@ def part_from(a, b, radius, now, until):
 
 
 @kernel
-def first_touch_of(a, b, bend, radius, begin, until):
+def time_of_impact_of_balls(a, b, bend, radius, begin, until):
     """Time from `begin` to `until` up to which two balls do not touch; whether they do then.
 
     `bend` bounds the acceleration of one against the other: of two that fly alike it is nearly none.
     """
     now = begin
-    for _ in range(MOST_STEPS):
+    for _ in range(MOST_ADVANCES):
         gap, rate, _ = gap_between(a, b, radius, now)
         if gap <= TOUCH:
             if rate < -TANGENTIAL or now > begin and rate <= 0.0:
                 return now, True
             if rate <= TANGENTIAL:
-                now = part_from(a, b, radius, now, until)
+                now = separation_time_of_balls(a, b, radius, now, until)
                 if now == begin:
                     return now, True
                 if now >= until:
                     return until, False
                 continue
-        now += safe_advance(gap, rate, bend)
+        now += advancement_bound(gap, rate, bend)
         if now >= until:
             return until, False
     return now, False
 
 
 @kernel
-def is_held(ball, other, radius, now):
+def is_left_to_time_stepping(ball, other, radius, now):
     """Whether the contact of a piled ball with another one is left to the pile."""
-    if ball['piled'] == PILED and other['piled'] == PILED:
+    if ball['piled'] == STEPPED and other['piled'] == STEPPED:
         return True
     gap, rate, _ = gap_between(ball, other, radius, now)
-    return gap < PILE_NEAR and (other['phase'] == REST or other['piled'] and rate > -STEADY)
+    return gap < RESTING_GAP and (other['phase'] == REST or other['piled'] and rate > -RESTING_APPROACH)
 
 
 @kernel
-def stays_in_reach(ball):
+def within_contact_reach(ball):
     """Whether a ball of a pile touches nothing on its piece but what its contacts hold it off."""
-    return ball['piled'] == PILED and length(vector(ball['path'][5])) <= ball['reach']
+    return ball['piled'] == STEPPED and length(load(ball['path'][5])) <= ball['reach']
 
 
-@ball_interactions.meeting.register(Crowd)
+@ball_interactions.first_ball_contact.register(MultiBallWorkspace)
 def _meeting(crowd, balls, i, radius, now):
-    return first_meeting(crowd, balls, i, radius, now)
+    return first_ball_impact(crowd, balls, i, radius, now)
 
 
-@ball_interactions.stand_in_the_way.register(Crowd)
+@ball_interactions.interrupt_segments.register(MultiBallWorkspace)
 def _stand_in_the_way(crowd, balls, i, radius, now):
-    end_at(crowd, balls, i, radius, now)
+    interrupt_segments_at(crowd, balls, i, radius, now)
 
 
 @shared
-def end_at(crowd, balls, i, radius, now):
+def interrupt_segments_at(crowd, balls, i, radius, now):
     """End pieces that others were laid through ball `i`, which rests now. Writes end, ending, target, ends.
 
     They were laid while it still moved, and looked no further than to the end of its piece.
     """
     ball = balls[i]
-    place = vector(ball['position'])
-    usual, stray = usual_bend(ball)
+    place = load(ball['position'])
+    usual, stray = acceleration_at_start(ball)
     reach = (radius, radius, radius)
     low = sub(place, reach)
     high = add(place, reach)
@@ -154,41 +154,41 @@ def end_at(crowd, balls, i, radius, now):
         j = crowd.nodes[at]['ball']
         other = balls[j]
         if moves(other['phase']) and other['end'] > now and not (other['piled']
-                                                                 and is_held(other, ball, radius, now)):
-            bend = stray + strays_from(other, usual)
-            time, touches = first_touch_of(other, ball, bend, radius, now, other['end'])
+                                                                 and is_left_to_time_stepping(other, ball, radius, now)):
+            bend = stray + acceleration_deviation(other, usual)
+            time, touches = time_of_impact_of_balls(other, ball, bend, radius, now, other['end'])
             if touches or time < other['end']:
                 other['end'] = time
-                other['ending'] = MEETING if touches else STEP
+                other['ending'] = BALL_IMPACT if touches else STEP_END
                 other['target'] = i
                 crowd.ends[j] = time
         at = next_node(crowd, at + 1, low, high)
 
 
 @kernel
-def is_over_a_pile(crowd, balls, low, high):
+def is_over_many_stepped(crowd, balls, low, high):
     """Whether many balls of a pile come into the box from `low` to `high`."""
     found = 0
     at = next_node(crowd, 0, low, high)
-    while at >= 0 and found < MANY:
-        found += balls[crowd.nodes[at]['ball']]['piled'] == PILED
+    while at >= 0 and found < MANY_STEPPED:
+        found += balls[crowd.nodes[at]['ball']]['piled'] == STEPPED
         at = next_node(crowd, at + 1, low, high)
-    return found == MANY
+    return found == MANY_STEPPED
 
 
 @shared
-def first_meeting(crowd, balls, i, radius, now):
+def first_ball_impact(crowd, balls, i, radius, now):
     """First time at which ball `i`'s piece touches another ball, which, and whether it really does."""
     ball = balls[i]
     until = ball['end']
-    if stays_in_reach(ball) and not ball['watch']:
+    if within_contact_reach(ball) and not ball['watch']:
         return until, -1, False
-    low, high = box(ball, 0.0, until - now, radius)
-    while is_long(low, high, SHORT * radius) and is_over_a_pile(crowd, balls, low, high):
+    low, high = swept_box(ball, 0.0, until - now, radius)
+    while is_long(low, high, SHORT_BOX * radius) and is_over_many_stepped(crowd, balls, low, high):
         until = now + 0.5 * (until - now)
-        low, high = box(ball, 0.0, until - now, radius)
-    usual, stray = usual_bend(ball)
-    here = place_at(ball, now), velocity_at(ball, now)
+        low, high = swept_box(ball, 0.0, until - now, radius)
+    usual, stray = acceleration_at_start(ball)
+    here = position_at(ball, now), velocity_at(ball, now)
     best = until
     who = -1
     hit = False
@@ -197,11 +197,11 @@ def first_meeting(crowd, balls, i, radius, now):
         j = crowd.nodes[at]['ball']
         # What is in one pile, or asleep beside it, is held by its contacts.
         other = balls[j]
-        if j != i and other['phase'] != HOLED and not (ball['piled'] and is_held(ball, other, radius, now)):
+        if j != i and other['phase'] != HOLED and not (ball['piled'] and is_left_to_time_stepping(ball, other, radius, now)):
             last = min(best, other['end'])
-            bend = stray + strays_from(other, usual)
-            if last >= now and not stays_clear(here, other, bend, radius, now, last):
-                time, touches = first_touch_of(ball, other, bend, radius, now, last)
+            bend = stray + acceleration_deviation(other, usual)
+            if last >= now and not cannot_touch(here, other, bend, radius, now, last):
+                time, touches = time_of_impact_of_balls(ball, other, bend, radius, now, last)
                 if touches and (time < best or not hit) or time < last:
                     best = time
                     who = j

@@ -2,13 +2,13 @@
 """When a ball in contact crosses a border in plan: the outline of a surface, or of a zone of one material."""
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import add, along, dot, length, sub, vector
-from ..trajectory.segment import greatest_acceleration, least_acceleration, position, span_along, velocity
-from .conservative_advancement import MOST_STEPS, TOUCH, safe_advance
+from ..mechanics.vector import add, add_scaled, dot, length, sub, load
+from ..trajectory.segment import greatest_acceleration, least_acceleration, position, extent_along, velocity
+from .conservative_advancement import MOST_ADVANCES, TOUCH, advancement_bound
 
 
 @shared
-def first_border(ground, ball, radius, until):
+def first_border_crossing(ground, ball, radius, until):
     """First time, at most `until`, at which the piece crosses a border in plan, and whether so.
 
     It is the ball's foot that crosses.
@@ -16,8 +16,8 @@ def first_border(ground, ball, radius, until):
     best = until
     crosses = False
     bend = greatest_acceleration(ball)
-    x = span_along(ball, 0)
-    y = span_along(ball, 1)
+    x = extent_along(ball, 0)
+    y = extent_along(ball, 1)
     for i in range(len(ground.borders)):
         border = ground.borders[i]
         end_x = border['start'][0] + border['length'] * border['direction'][0]
@@ -30,13 +30,13 @@ def first_border(ground, ball, radius, until):
                 or y[1] + dy < min(border['start'][1], end_y) - room
                 or y[0] + dy > max(border['start'][1], end_y) + room):
             continue
-        time = crossing(border, ball, (dx, dy, 0.0), bend, best)
+        time = border_crossing_time(border, ball, (dx, dy, 0.0), bend, best)
         if time < best:
             best = time
             crosses = True
     for i in range(surfaces.limits(ground, ball['support'])):
         point, inward = surfaces.limit(ground, ball['support'], i)
-        time = passing(ball, along(point, radius, vector(ball['normal'])), inward, best)
+        time = limit_crossing_time(ball, add_scaled(point, radius, load(ball['normal'])), inward, best)
         if time < best:
             best = time
             crosses = True
@@ -44,25 +44,25 @@ def first_border(ground, ball, radius, until):
 
 
 @kernel
-def passing(ball, point, inward, until):
+def limit_crossing_time(ball, point, inward, until):
     """First time before `until` at which the piece passes the line through `point`, or `until`."""
     time = 0.0
     bend = max(0.0, -least_acceleration(ball, inward))
-    for _ in range(MOST_STEPS):
+    for _ in range(MOST_ADVANCES):
         gap = dot(sub(position(ball, time), point), inward)
         rate = dot(velocity(ball, time), inward)
         if gap <= TOUCH:
             if rate < 0.0:  # on the line from the start: as far past it as tells what is there
                 return time if time > 0.0 else min(until, 2.0 * surfaces.LOOK_AHEAD / -rate)
             gap = TOUCH
-        time += max(safe_advance(gap, rate, bend), 1e-12)
+        time += max(advancement_bound(gap, rate, bend), 1e-12)
         if time >= until:
             return until
     return until
 
 
 @kernel
-def crossing(border, ball, shift, bend, until):
+def border_crossing_time(border, ball, shift, bend, until):
     """First time before `until` at which the piece, moved by `shift`, meets `border`, or `until`.
 
     A piece that starts on the border has crossed it already.
@@ -76,13 +76,13 @@ def crossing(border, ball, shift, bend, until):
         if time >= until:
             return until
     rate = 0.0
-    for _ in range(MOST_STEPS):
+    for _ in range(MOST_ADVANCES):
         place = add(position(ball, time), shift)
         gap, direction = surfaces.distance_in_plan(border, place[0], place[1])
         if gap <= TOUCH:  # on the line there is no direction from it: the approach decides
             return time if rate < 0.0 else until
         rate = dot(direction, velocity(ball, time))
-        time += safe_advance(gap, rate, bend)
+        time += advancement_bound(gap, rate, bend)
         if time >= until:
             return until
     return until

@@ -14,61 +14,61 @@ it::
 A ball that gets a new piece widens or narrows the boxes above its leaf; now and then the tree is built anew.
 """
 from ..jit import kernel, shared
-from ..mechanics.vector import along, put, vector
-from ..state.ball import PILED, moves
+from ..mechanics.vector import add_scaled, store, load
+from ..state.ball import STEPPED, moves
 from . import ball_interactions
-from .conservative_advancement import box
-from .workspace import AGE, ASLEEP, Crowd
+from .conservative_advancement import swept_box
+from .workspace import TREE_AGE, ASLEEP, MultiBallWorkspace
 
-ROOM = 1e-3  # m around the box of a ball of a pile, which seldom goes far
+LEAF_MARGIN = 1e-3  # m around the box of a ball of a pile, which seldom goes far
 
 
-@ball_interactions.prepare.register(Crowd)
+@ball_interactions.prepare_broad_phase.register(MultiBallWorkspace)
 def _prepare(crowd, balls, radius):
     crowd.count[ASLEEP] = 0
     for i in range(len(balls)):
         if balls[i]['leans']:
             crowd.count[ASLEEP] = 1
-    if crowd.count[AGE] >= len(balls):
-        plant(crowd, balls, radius)
+    if crowd.count[TREE_AGE] >= len(balls):
+        rebuild(crowd, balls, radius)
 
 
 @kernel
-def box_of(ball, radius, room):
+def segment_box(ball, radius, room):
     """Box of the ball's piece, with `room` around it."""
-    if moves(ball['phase']) and ball['piled'] != PILED:
-        return box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
+    if moves(ball['phase']) and ball['piled'] != STEPPED:
+        return swept_box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
     half = (radius + room, radius + room, radius + room)
-    here = vector(ball['origin']) if moves(ball['phase']) else vector(ball['position'])
-    there = along(here, 1.0, vector(ball['path'][5])) if moves(ball['phase']) else here
+    here = load(ball['origin']) if moves(ball['phase']) else load(ball['position'])
+    there = add_scaled(here, 1.0, load(ball['path'][5])) if moves(ball['phase']) else here
     low = min(here[0], there[0]), min(here[1], there[1]), min(here[2], there[2])
     high = max(here[0], there[0]), max(here[1], there[1]), max(here[2], there[2])
-    return along(low, -1.0, half), along(high, 1.0, half)
+    return add_scaled(low, -1.0, half), add_scaled(high, 1.0, half)
 
 
 @kernel
-def write_box(ball, node, radius):
+def write_leaf(ball, node, radius):
     """Write the box of the ball's piece into its leaf; in a pile with room for some steps."""
-    low, high = box_of(ball, radius, ROOM if ball['piled'] == PILED else 0.0)
-    put(node['low'], low)
-    put(node['high'], high)
+    low, high = segment_box(ball, radius, LEAF_MARGIN if ball['piled'] == STEPPED else 0.0)
+    store(node['low'], low)
+    store(node['high'], high)
 
 
 @kernel
-def is_boxed(ball, node, radius):
+def leaf_serves(ball, node, radius):
     """Whether the box in the leaf of a ball of a pile still serves, and is not far too large."""
-    if ball['piled'] != PILED:
+    if ball['piled'] != STEPPED:
         return False
-    low, high = box_of(ball, radius, 0.0)
+    low, high = segment_box(ball, radius, 0.0)
     for k in range(3):
-        if not (0.0 <= low[k] - node['low'][k] <= 3.0 * ROOM
-                and 0.0 <= node['high'][k] - high[k] <= 3.0 * ROOM):
+        if not (0.0 <= low[k] - node['low'][k] <= 3.0 * LEAF_MARGIN
+                and 0.0 <= node['high'][k] - high[k] <= 3.0 * LEAF_MARGIN):
             return False
     return True
 
 
 @kernel
-def unite(crowd, i):
+def refit(crowd, i):
     """Write the box of node `i` from those below it."""
     node = crowd.nodes[i]
     one = crowd.nodes[i + 1]
@@ -79,9 +79,9 @@ def unite(crowd, i):
 
 
 @shared
-def plant(crowd, balls, radius):
+def rebuild(crowd, balls, radius):
     """Build the tree anew, whatever it was before. Writes nodes, leaves, order, count."""
-    crowd.count[AGE] = 0
+    crowd.count[TREE_AGE] = 0
     for i in range(len(balls)):
         crowd.order[i] = i
     crowd.nodes[0]['first'] = 0
@@ -96,20 +96,20 @@ def plant(crowd, balls, radius):
             number = crowd.order[node['first']]
             node['ball'] = number
             crowd.leaves[number] = i
-            write_box(balls[number], node, radius)
+            write_leaf(balls[number], node, radius)
             continue
         half = n // 2
-        halve(crowd.order, balls, node['first'], node['first'] + n, node['first'] + half)
-        below(crowd.nodes[i + 1], i, node['first'], half)
-        below(crowd.nodes[i + 2 * half], i, node['first'] + half, n - half)
+        partition(crowd.order, balls, node['first'], node['first'] + n, node['first'] + half)
+        set_node(crowd.nodes[i + 1], i, node['first'], half)
+        set_node(crowd.nodes[i + 2 * half], i, node['first'] + half, n - half)
     for back in range(1, len(crowd.nodes) + 1):
         i = len(crowd.nodes) - back
         if crowd.nodes[i]['ball'] < 0:
-            unite(crowd, i)
+            refit(crowd, i)
 
 
 @kernel
-def below(node, parent, first, count):
+def set_node(node, parent, first, count):
     """Give a node its parent and its balls."""
     node['parent'] = parent
     node['first'] = first
@@ -117,7 +117,7 @@ def below(node, parent, first, count):
 
 
 @kernel
-def halve(order, balls, first, last, middle):
+def partition(order, balls, first, last, middle):
     """Put balls `first` to `last` in order along their longest axis, as far as `middle` parts them."""
     axis = 0
     widest = -1.0
@@ -152,25 +152,25 @@ def halve(order, balls, first, last, middle):
             break
 
 
-@ball_interactions.note.register(Crowd)
+@ball_interactions.update_tree.register(MultiBallWorkspace)
 def _note(crowd, balls, i, radius):
-    renew(crowd, balls, i, radius)
+    update_leaf(crowd, balls, i, radius)
 
 
 @shared
-def renew(crowd, balls, i, radius):
+def update_leaf(crowd, balls, i, radius):
     """Tell ball `i`'s new piece. Writes the tree."""
     leaf = crowd.leaves[i]
-    if is_boxed(balls[i], crowd.nodes[leaf], radius):
+    if leaf_serves(balls[i], crowd.nodes[leaf], radius):
         return
-    crowd.count[AGE] += 1
-    if crowd.count[AGE] > len(balls):
-        plant(crowd, balls, radius)
+    crowd.count[TREE_AGE] += 1
+    if crowd.count[TREE_AGE] > len(balls):
+        rebuild(crowd, balls, radius)
         return
-    write_box(balls[i], crowd.nodes[leaf], radius)
+    write_leaf(balls[i], crowd.nodes[leaf], radius)
     at = crowd.nodes[leaf]['parent']
     while at >= 0:
-        unite(crowd, at)
+        refit(crowd, at)
         at = crowd.nodes[at]['parent']
 
 

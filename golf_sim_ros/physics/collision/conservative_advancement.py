@@ -13,19 +13,19 @@ it converges as fast, and can't tunnel. (Mirtich, Impulse-based dynamic simulati
 from math import sqrt
 
 from ..jit import kernel
-from ..trajectory.segment import greatest_acceleration, position, span_along
+from ..trajectory.segment import greatest_acceleration, position, extent_along
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
 TANGENTIAL = 1e-9  # m/s: a gap that changes slower than this does not change
 RISING = 1e-12  # m/s: more than the rounding error of a rate, and less than a nanosecond's acceleration
-PLAIN = 0.01  # m/s: what approaches faster, and is a microsecond away, will touch
+PLAIN_APPROACH = 0.01  # m/s: what approaches faster, and is a microsecond away, will touch
 NEVER = 1e300
-MOST_STEPS = 200
-SHORT = 4.0  # radii: a stretch with a box no longer than this is not worth halving
+MOST_ADVANCES = 200
+SHORT_BOX = 4.0  # radii: a stretch with a box no longer than this is not worth halving
 
 
 @kernel
-def safe_advance(gap, rate, bend):
+def advancement_bound(gap, rate, bend):
     """Time in which a gap of that `rate` can't close if its rate falls by at most `bend`."""
     gap = max(gap, 0.0)
     if bend <= 0.0:
@@ -37,12 +37,12 @@ def safe_advance(gap, rate, bend):
 
 
 @kernel
-def box(ball, begin, end, radius):
+def swept_box(ball, begin, end, radius):
     """Box around the ball on its piece from `begin` to `end`."""
     if begin == 0.0 and end >= 0.5 * ball['span']:
-        x = span_along(ball, 0)
-        y = span_along(ball, 1)
-        z = span_along(ball, 2)
+        x = extent_along(ball, 0)
+        y = extent_along(ball, 1)
+        z = extent_along(ball, 2)
         return ((x[0] - radius, y[0] - radius, z[0] - radius), (x[1] + radius, y[1] + radius, z[1] + radius))
     a = position(ball, begin)
     b = position(ball, end)

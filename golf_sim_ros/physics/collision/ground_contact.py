@@ -12,58 +12,58 @@ is crowded: only those on the way are asked.
 from ..geometry import surfaces
 from ..geometry.plane_patch import FLUSH
 from ..jit import kernel, shared
-from ..mechanics.vector import along, dot, length, vector
+from ..mechanics.vector import add_scaled, dot, length, load
 from ..state.ball import NO_PART
-from ..trajectory.segment import (bends, corner, greatest_acceleration, greatest_speed, height, heights,
+from ..trajectory.segment import (acceleration_bounds, control_point, greatest_acceleration, greatest_speed, plane_gap, plane_gap_coefficients,
                                   position, velocity)
-from .conservative_advancement import (MOST_STEPS, NEVER, PLAIN, RISING, SHORT, TANGENTIAL, TOUCH, box,
-                                       is_long, safe_advance)
-NEAR = 1e-7  # m: surfaces nearer than this hold a caught ball
-PILE_NEAR = 5e-5  # m: the same in a pile, of balls too
-GENTLE = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
-SAME = 1e-9  # m: distances that differ less are those of the same point
+from .conservative_advancement import (MOST_ADVANCES, NEVER, PLAIN_APPROACH, RISING, SHORT_BOX, TANGENTIAL, TOUCH, swept_box,
+                                       is_long, advancement_bound)
+HOLDING_GAP = 1e-7  # m: surfaces nearer than this hold a caught ball
+RESTING_GAP = 5e-5  # m: the same in a pile, of balls too
+GENTLE_APPROACH = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
+SAME_DISTANCE = 1e-9  # m: distances that differ less are those of the same point
 ESCAPE = 1e-9  # m: so far a ball that leaves a hollow may move before it is looked at again
 MANY_STEPS = 100  # after which the bound on the speed all along is taken for too rough
 LOOK = 1.0 / 32.0  # of the work of a segment elsewhere: so much is a look at one part
-FEW = 4  # steps, after which it is worth looking whether a part's nearest face is the same all along
-CROWD = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
-BARELY = 1e-7  # s: a ball that leaves an edge sooner has left it
+FEW_STEPS = 4  # steps, after which it is worth looking whether a part's nearest face is the same all along
+MANY_PARTS = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
+LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner has left it
 NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, CAUGHT = range(5)
+IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 
 
 @kernel
-def sees_one(ground, part, ball, normal):
+def sees_one_normal(ground, part, ball, normal):
     """Whether the whole piece sees one and the same `normal` of a convex `part`."""
     for i in range(6):
-        _, seen = surfaces.nearest(ground, part, corner(ball, i))
+        _, seen = surfaces.nearest(ground, part, control_point(ball, i))
         if dot(seen, normal) < 1.0 - 1e-15:
             return False
     return True
 
 
 @kernel
-def over_plane(ground, part, ball, radius):
+def plane_gap_bounds(ground, part, ball, radius):
     """Coefficients of the gap to `part`, seen with one normal all along; how fast its rate falls, rises."""
-    distance, normal = surfaces.nearest(ground, part, corner(ball, 0))
-    over = heights(ball, normal, distance - radius)
-    falls, rises = bends(over, ball['span'])
+    distance, normal = surfaces.nearest(ground, part, control_point(ball, 0))
+    over = plane_gap_coefficients(ball, normal, distance - radius)
+    falls, rises = acceleration_bounds(over, ball['span'])
     return over, falls, rises
 
 
 @kernel
-def past_hollows(hollow, distance, gap, rate, bend, fastest):
-    """`safe_advance` over a part with hollows of curvature `hollow`, `distance` from the ball's centre."""
+def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
+    """`advancement_bound` over a part with hollows of curvature `hollow`, `distance` from the ball's centre."""
     sure = (gap if gap > TOUCH else ESCAPE) / (fastest + 1e-9)
     tube = 0.5 / hollow - distance
     if tube <= 0.0:
         return sure
-    bent = safe_advance(gap, rate, bend + 2.0 * hollow * fastest * fastest)
+    bent = advancement_bound(gap, rate, bend + 2.0 * hollow * fastest * fastest)
     return max(sure, min(bent, tube / (fastest + 1e-9)))
 
 
 @kernel
-def leave(ground, part, ball, radius, until):
+def separation_time(ground, part, ball, radius, until):
     """Time up to which a ball that touches `part` tangentially moves off it, or 0 if it presses on.
 
     A ball that flies off a flat ridge rises by less than can be told from touching before it comes down
@@ -87,7 +87,7 @@ def leave(ground, part, ball, radius, until):
 
 
 @kernel
-def submerged(ground, part, ball, radius, time, until, gap, bend, hollow):
+def penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, hollow):
     """Time for which a ball in a cut of `part`, or behind a one-sided sheet, is not clear of its plane yet.
 
     Along a straight way a convex gap stays below its chord, and the path strays from that way by at
@@ -98,17 +98,17 @@ def submerged(ground, part, ball, radius, time, until, gap, bend, hollow):
     least = max(-gap, 1e-6) / (length(way) + bend * until + 1e-3)
     if surfaces.in_cut(ground, part, place):
         distance, normal = surfaces.nearest(ground, part, place)
-        room = surfaces.room_in_plan(ground, along(place, -distance, normal))
+        room = surfaces.room_in_plan(ground, add_scaled(place, -distance, normal))
         least = max(least, room / (greatest_speed(ball) + 1e-9))
     if hollow > 0.0:
         return least
     left = until - time
-    distance, _ = surfaces.nearest(ground, part, along(place, left, way))
-    return max(least, safe_advance(-gap, (gap - distance + radius) / left, bend))
+    distance, _ = surfaces.nearest(ground, part, add_scaled(place, left, way))
+    return max(least, advancement_bound(-gap, (gap - distance + radius) / left, bend))
 
 
 @kernel
-def first_touch(ground, part, ball, radius, begin, until):
+def time_of_impact(ground, part, ball, radius, begin, until):
     """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then.
 
     Writes pieces.
@@ -120,48 +120,48 @@ def first_touch(ground, part, ball, radius, begin, until):
     level = surfaces.is_plane(ground, part)
     rises = NEVER
     if level:
-        over, bend, rises = over_plane(ground, part, ball, radius)
+        over, bend, rises = plane_gap_bounds(ground, part, ball, radius)
     else:
         over = NO_HEIGHTS
         bend = greatest_acceleration(ball)
     time = begin
-    for step in range(MOST_STEPS):
+    for step in range(MOST_ADVANCES):
         ball['pieces'] += work
         if level:
-            gap, rate = height(over, span, time)
+            gap, rate = plane_gap(over, span, time)
         else:
             distance, normal = surfaces.nearest(ground, part, position(ball, time))
             gap = distance - radius
             rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
             if not surfaces.touchable(ground, part, position(ball, time)):
-                time += submerged(ground, part, ball, radius, time, until, gap, bend, hollow)
+                time += penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, hollow)
                 if time >= until:
                     return until, False
                 continue
-            # An edge is known to FLUSH, so is its direction to FLUSH over the radius: `leave` tells.
+            # An edge is known to FLUSH, so is its direction to FLUSH over the radius: `separation_time` tells.
             grazing = TANGENTIAL + FLUSH / radius * length(velocity(ball, time))
             if rate < -grazing or time > 0.0 and rate <= 0.0:
                 return time, True
             if time == 0.0 and rate <= TANGENTIAL:
-                time = leave(ground, part, ball, radius, until)
+                time = separation_time(ground, part, ball, radius, until)
                 if time == 0.0:
                     return 0.0, True
                 if time >= until:
                     return until, False
                 continue
         if hollow > 0.0:
-            sure = past_hollows(hollow, distance, gap, rate, bend, fastest)
+            sure = advancement_over_hollows(hollow, distance, gap, rate, bend, fastest)
             if step > MANY_STEPS:  # a slow ball on a piece at whose end it is fast
-                sure = max(sure, safe_advance(gap, -length(velocity(ball, time)), bend))
+                sure = max(sure, advancement_bound(gap, -length(velocity(ball, time)), bend))
             time += sure
         else:
-            if step == FEW and not level and sees_one(ground, part, ball, normal):
+            if step == FEW_STEPS and not level and sees_one_normal(ground, part, ball, normal):
                 level = True
-                over, bend, rises = over_plane(ground, part, ball, radius)
-            sure = safe_advance(gap, rate, bend)
+                over, bend, rises = plane_gap_bounds(ground, part, ball, radius)
+            sure = advancement_bound(gap, rate, bend)
             time += sure
-            if (max(bend, rises) * sure * sure < TOUCH and rate < -PLAIN and time < until
+            if (max(bend, rises) * sure * sure < TOUCH and rate < -PLAIN_APPROACH and time < until
                     and surfaces.touchable(ground, part, position(ball, time))):
                 return time, True  # by then the gap is the square's half at most, either way
         if time >= until:
@@ -170,7 +170,7 @@ def first_touch(ground, part, ball, radius, begin, until):
 
 
 @shared
-def first_contact(ground, ball, radius, until, on):
+def first_ground_contact(ground, ball, radius, until, on):
     """First time at which the piece touches any part, which one, and whether it really does.
 
     `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
@@ -183,9 +183,9 @@ def first_contact(ground, ball, radius, until, on):
     best = until
     while begin < until:
         end = min(begin + stretch, until)
-        low, high = box(ball, begin, end, radius)
+        low, high = swept_box(ball, begin, end, radius)
         ball['pieces'] += LOOK
-        if is_long(low, high, SHORT * radius) and is_crowded(ground, low, high):
+        if is_long(low, high, SHORT_BOX * radius) and has_many_parts(ground, low, high):
             stretch = 0.5 * (end - begin)
             continue
         best, who, hit = first_in_box(ground, ball, radius, begin, end, low, high, on)
@@ -197,12 +197,12 @@ def first_contact(ground, ball, radius, until, on):
 
 
 @kernel
-def is_crowded(ground, low, high):
+def has_many_parts(ground, low, high):
     """Whether many parts have a point in the box."""
-    if surfaces.parts(ground) < CROWD:
+    if surfaces.parts(ground) < MANY_PARTS:
         return False
     part = NO_PART
-    for _ in range(CROWD):
+    for _ in range(MANY_PARTS):
         part = surfaces.next_part(ground, part + 1, low, high)
         if part < 0:
             return False
@@ -211,23 +211,23 @@ def is_crowded(ground, low, high):
 
 @kernel
 def first_in_box(ground, ball, radius, begin, end, low, high, on):
-    """`first_contact` from `begin` to `end` with what has a point in the box from `low` to `high`."""
+    """`first_ground_contact` from `begin` to `end` with what has a point in the box from `low` to `high`."""
     best = end
     who = NO_PART
     hit = False
-    foot = along(vector(ball['position']), -radius, vector(ball['normal']))
+    foot = add_scaled(load(ball['position']), -radius, load(ball['normal']))
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         ball['pieces'] += LOOK
-        if not is_passed(ground, part, ball, radius, foot, best, on):
-            time, touches = first_touch(ground, part, ball, radius, begin, best)
+        if not is_ignored(ground, part, ball, radius, foot, best, on):
+            time, touches = time_of_impact(ground, part, ball, radius, begin, best)
             if touches and on == ON_FLAT:
                 _, normal = surfaces.nearest(ground, part, position(ball, time))
-                touches = dot(normal, vector(ball['normal'])) <= 1.0 - 1e-9
+                touches = dot(normal, load(ball['normal'])) <= 1.0 - 1e-9
                 if not touches:
                     time = end
             if touches and on == ON_EDGE and time == 0.0:
-                lasts = edge_lasts(ground, part, ball, best)
+                lasts = edge_duration(ground, part, ball, best)
                 if lasts > 0.0:
                     time = lasts
                     touches = False
@@ -240,33 +240,33 @@ def first_in_box(ground, ball, radius, begin, end, low, high, on):
 
 
 @kernel
-def is_passed(ground, part, ball, radius, foot, until, on):
+def is_ignored(ground, part, ball, radius, foot, until, on):
     """Whether `part` is no obstacle to the ball because of what it is `on`."""
     if on == ON_FLAT:
-        return surfaces.in_plane(ground, part, foot, vector(ball['normal']))
-    if on == CAUGHT:
-        return holds(ground, part, ball, radius)
+        return surfaces.in_plane(ground, part, foot, load(ball['normal']))
+    if on == WEDGED:
+        return holds_wedged(ground, part, ball, radius)
     if on == ON_CURVE:
         return surfaces.goes_on(ground, ball['support'], part)
     if on == ON_EDGE:
-        return same_edge(ground, part, ball, until)
+        return is_same_edge(ground, part, ball, until)
     return False
 
 
 @kernel
-def holds(ground, part, ball, radius):
+def holds_wedged(ground, part, ball, radius):
     """Whether `part` holds the caught ball as its piece begins, and so is no obstacle to it.
 
     One of a pile that another ball has just hit may be too fast to wait for the pile.
     """
-    distance, normal = surfaces.nearest(ground, part, vector(ball['position']))
+    distance, normal = surfaces.nearest(ground, part, load(ball['position']))
     if not ball['piled']:
-        return distance - radius <= NEAR
-    return distance - radius <= PILE_NEAR and dot(normal, velocity(ball, 0.0)) > -GENTLE
+        return distance - radius <= HOLDING_GAP
+    return distance - radius <= RESTING_GAP and dot(normal, velocity(ball, 0.0)) > -GENTLE_APPROACH
 
 
 @kernel
-def same_edge(ground, part, ball, until):
+def is_same_edge(ground, part, ball, until):
     """Whether what is nearest of `part` is what supports the ball, now and `until` the piece's end."""
     if part == ball['support']:
         return True
@@ -274,19 +274,19 @@ def same_edge(ground, part, ball, until):
         place = position(ball, i * until)
         distance, normal = surfaces.nearest(ground, part, place)
         supported, upward = surfaces.nearest(ground, ball['support'], place)
-        if abs(distance - supported) > SAME or dot(normal, upward) < 1.0 - 1e-12:
+        if abs(distance - supported) > SAME_DISTANCE or dot(normal, upward) < 1.0 - 1e-12:
             return False
     return True
 
 
 @kernel
-def edge_lasts(ground, part, ball, until):
+def edge_duration(ground, part, ball, until):
     """Time, `until` at most, for which the supporting edge is that of `part` too; 0 if not at all.
 
     Two faces share the edge that the ball follows: one is no obstacle before the ball leaves for it.
     """
-    while until > BARELY:
-        if same_edge(ground, part, ball, until):
+    while until > LEAST_EDGE_TIME:
+        if is_same_edge(ground, part, ball, until):
             return until
         until *= 0.5
     return 0.0

@@ -7,21 +7,21 @@ still fail.
 from ..geometry.polygon import beside_region
 from ..jit import kernel, shared
 from ..mechanics.vector import length
-from ..trajectory.segment import greatest_acceleration, least_acceleration, position, span_along, velocity
-from .conservative_advancement import MOST_STEPS, TANGENTIAL, TOUCH, safe_advance
+from ..trajectory.segment import greatest_acceleration, least_acceleration, position, extent_along, velocity
+from .conservative_advancement import MOST_ADVANCES, TANGENTIAL, TOUCH, advancement_bound
 
 UP = (0.0, 0.0, 1.0)
 
 
 @shared
-def first_dip(waters, ball, until):
+def first_water_entry(waters, ball, until):
     """First time, at most `until`, at which the piece enters water; number of that water, from 1, or 0."""
     best = until
     who = 0
-    lowest, _ = span_along(ball, 2)
+    lowest, _ = extent_along(ball, 2)
     for i in range(len(waters.levels)):
         if lowest < waters.levels[i]:
-            time, dips = dip(waters, i, ball, best)
+            time, dips = water_entry_time(waters, i, ball, best)
             if dips:
                 best = time
                 who = i + 1
@@ -29,15 +29,15 @@ def first_dip(waters, ball, until):
 
 
 @kernel
-def dip(waters, i, ball, until):
+def water_entry_time(waters, i, ball, until):
     """First time before `until` at which the piece enters water `i`, and whether it does."""
     bend = greatest_acceleration(ball)
     falling = max(0.0, -least_acceleration(ball, UP))
     time = 0.0
-    for _ in range(MOST_STEPS):
+    for _ in range(MOST_ADVANCES):
         place = position(ball, time)
-        sure = max(still_above(place[2] - waters.levels[i], velocity(ball, time)[2], falling),
-                   still_beside(beside_region(waters.outlines, i, place[0], place[1]),
+        sure = max(time_above(place[2] - waters.levels[i], velocity(ball, time)[2], falling),
+                   time_outside(beside_region(waters.outlines, i, place[0], place[1]),
                                 length(velocity(ball, time)), bend))
         if sure <= 0.0:
             return time, True
@@ -48,14 +48,14 @@ def dip(waters, i, ball, until):
 
 
 @kernel
-def still_above(gap, rate, falling):
+def time_above(gap, rate, falling):
     """Time for which a centre at height `gap` over the level stays there; 0 below, or on it and sinking."""
     if gap < -TOUCH or gap <= TOUCH and rate < -TANGENTIAL:
         return 0.0
-    return safe_advance(gap, max(rate, 0.0) if gap <= TOUCH else rate, falling)
+    return advancement_bound(gap, max(rate, 0.0) if gap <= TOUCH else rate, falling)
 
 
 @kernel
-def still_beside(away, speed, bend):
+def time_outside(away, speed, bend):
     """Time for which a centre `away` from the outline in plan, of that `speed`, stays outside."""
-    return safe_advance(away, -speed, bend) if away > TOUCH else 0.0
+    return advancement_bound(away, -speed, bend) if away > TOUCH else 0.0

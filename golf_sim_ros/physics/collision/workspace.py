@@ -4,9 +4,9 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
-from .ball_interactions import Solo
+from .ball_interactions import SingleBallWorkspace
 
-NODE = np.dtype([('low', 'f8', 3), ('high', 'f8', 3), ('skip', 'i8'), ('parent', 'i8'), ('ball', 'i8'),
+TREE_NODE = np.dtype([('low', 'f8', 3), ('high', 'f8', 3), ('skip', 'i8'), ('parent', 'i8'), ('ball', 'i8'),
                  ('first', 'i8'), ('count', 'i8')], align=True)
 
 CONTACT = np.dtype([
@@ -16,12 +16,12 @@ CONTACT = np.dtype([
     ('impulse', 'f8', 3), ('approach', 'f8')], align=True)
 
 CONTACTS_A_BALL = 12
-NEIGHBOURS = 64  # balls that one of a pile may have in reach
-MEMBERS, CONTACTS, AGE, ASLEEP = range(4)
+MOST_NEIGHBOURS = 64  # balls that one of a pile may have in reach
+INVOLVED, CONTACTS, TREE_AGE, ASLEEP = range(4)
 
 
-class Crowd(NamedTuple):
-    """Scratch of an engine whose balls touch each other: that of `Solo`, and the tree.
+class MultiBallWorkspace(NamedTuple):
+    """Scratch of an engine whose balls touch each other: that of `SingleBallWorkspace`, and the tree.
 
     ``nodes``: depth first; ``leaves``: each ball's node; ``order``: scratch of its making; ``near``: balls
     around the one at hand.
@@ -41,20 +41,20 @@ class Crowd(NamedTuple):
     near: np.ndarray
 
 
-def scratch(balls, collide):
-    """`Crowd` of that many balls, which `collide`, or `Solo`."""
-    solo = Solo(np.full(balls, np.inf), np.zeros(balls, np.int64), np.full(balls, -1, np.int64),
+def new_workspace(balls, collide):
+    """`MultiBallWorkspace` of that many balls, which `collide`, or `SingleBallWorkspace`."""
+    solo = SingleBallWorkspace(np.full(balls, np.inf), np.zeros(balls, np.int64), np.full(balls, -1, np.int64),
                 np.zeros((balls, 3)), np.zeros((balls, 6)), np.zeros(CONTACTS_A_BALL * balls + 8, CONTACT),
                 np.array([0, 0, balls, 0]),
                 np.zeros(0, np.int64))
     if not collide:
         return solo
-    return Crowd(*solo, np.zeros(2 * balls - 1, NODE), np.zeros(balls, np.int64), np.arange(balls),
-                 np.zeros(NEIGHBOURS, np.int64))
+    return MultiBallWorkspace(*solo, np.zeros(2 * balls - 1, TREE_NODE), np.zeros(balls, np.int64), np.arange(balls),
+                 np.zeros(MOST_NEIGHBOURS, np.int64))
 
 
 @kernel
-def first_due(crowd, until):
+def next_event_ball(crowd, until):
     """Ball whose piece ends first, at `until` at the latest, or -1."""
     who = -1
     first = until

@@ -8,23 +8,23 @@ geometric series, and what is left is taken at once when it no longer counts.
 """
 from math import inf
 
-from ..effects import flight_rates, pull
+from ..effects import flight_rates, gravity_at
 from ..geometry import surfaces
 from ..integrators import step
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
-from ..mechanics.vector import ZERO, add, along, cross, dot, length, put, scale, sub, vector
+from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, sub, load
 from ..state.ball import FLIGHT, ROLL, SLIDE, moves
-from ..trajectory.equations_of_motion import STILL, following_rates, material_under, unwinding
-from ..trajectory.segment import lay, position
-from .contact_state import in_tail, settle, take_slip
+from ..trajectory.equations_of_motion import LEAST_SPEED, contact_rates, material_under, unwinding
+from ..trajectory.segment import fit_segment, position
+from .contact_state import in_micro_bounces, choose_contact_mode, remove_slip
 
-MOST_TURN = 0.1  # rad of the normal in a step
+MOST_NORMAL_TURN = 0.1  # rad of the normal in a step
 FIRST_STEP = 0.02  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s
 CORRECTIONS = 12  # of a step's length
-WORK = 1  # pieces of a path elsewhere: so much is each of them, times the effort of the ground
+CORRECTION_WORK = 1  # pieces of a path elsewhere: so much is each of them, times the effort of the ground
 LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
 APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
 SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
@@ -35,13 +35,13 @@ SLIP_TIME = 1e-8  # s: or what friction of the press takes meanwhile, which is m
 
 
 @shared
-def bent_piece(model, ball, now):
+def curved_segment(model, ball, now):
     """Lay a step along ground that is not flat; lift off where the press is gone. Writes the curve."""
     land = model.land
-    place = vector(ball['position'])
-    w = vector(ball['spin'])
-    force, _, press, needed = following_rates(land, ball, place, vector(ball['velocity']), w)
-    holding = press if press > 0.0 else press_of_air(model, ball, place, vector(ball['velocity']), w)
+    place = load(ball['position'])
+    w = load(ball['spin'])
+    force, _, press, needed = contact_rates(land, ball, place, load(ball['velocity']), w)
+    holding = press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
     if holding <= 0.0:
         ball['phase'] = FLIGHT
         ball['step'] = 0.0
@@ -49,33 +49,33 @@ def bent_piece(model, ball, now):
     grips = needed <= material_under(land, ball)['static_friction'] * press
     if ball['phase'] == ROLL and not grips:
         ball['phase'] = SLIDE
-    rest_of_motion(land, ball, force, press, grips, now)
+    snap_small_motion(land, ball, force, press, grips, now)
     if not moves(ball['phase']):
         return
-    v = vector(ball['velocity'])
-    force, _, press, _ = following_rates(land, ball, place, v, vector(ball['spin']))
+    v = load(ball['velocity'])
+    force, _, press, _ = contact_rates(land, ball, place, v, load(ball['spin']))
     turn = surfaces.turn(land.ground, ball['support'], place, v)
     h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
-    h = min(h, MOST_TURN / max(length(turn), 1e-3))
-    h = min(h, time_to_wind_off(land, ball, press, turn))
+    h = min(h, MOST_NORMAL_TURN / max(length(turn), 1e-3))
+    h = min(h, time_to_unwind(land, ball, press, turn))
     h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
-    if in_tail(ball, now):
+    if in_micro_bounces(ball, now):
         h = min(h, ball['tail_end'] - now)
-    slipping = slip(v, vector(ball['spin']), vector(ball['normal']), land.ball.radius)
-    work = WORK * surfaces.effort(land.ground, ball['support'])
+    slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
+    work = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
     for _ in range(CORRECTIONS):
         ball['pieces'] += work
         ball['step'] = h
         step(model, ball)
         following = ball['step']
         h = ball['span']
-        held = put_on_ground(land, ball)
+        held = project_to_ground(land, ball)
         if held <= 0.0:
-            end = along(place, 1.0, vector(ball['path'][5]))
-            held = press_of_air(model, ball, end, end_velocity(ball), vector(ball['twist'][3]))
-        left = share_left(land, ball, v, slipping, holding, held)
+            end = add_scaled(place, 1.0, load(ball['path'][5]))
+            held = press_with_air(model, ball, end, end_velocity(ball), load(ball['twist'][3]))
+        left = step_share_to_change(land, ball, v, slipping, holding, held)
         if left == 1.0:
-            left = share_on_ground(land, ball)
+            left = step_share_on_ground(land, ball)
             following = min(following, 2.0 * h * left)
             if left >= 1.0:
                 break
@@ -86,7 +86,7 @@ def bent_piece(model, ball, now):
 
 
 @shared
-def press_of_air(model, ball, place, velocity, spin):
+def press_with_air(model, ball, place, velocity, spin):
     """Press with what the air adds to the weight.
 
     Topspin and wind hold a ball to a crest from where its weight alone would let it fly: it would be back at
@@ -99,7 +99,7 @@ def press_of_air(model, ball, place, velocity, spin):
 
 
 @shared
-def share_on_ground(land, ball):
+def step_share_on_ground(land, ball):
     """Share of the step, or more, over which its curve keeps to the ground as well as a path must.
 
     The curve meets place, velocity and acceleration at both ends, so it errs by the step's sixth power.
@@ -114,29 +114,29 @@ def share_on_ground(land, ball):
 
 
 @shared
-def rest_of_motion(land, ball, force, press, grips, now):
+def snap_small_motion(land, ball, force, press, grips, now):
     """Take away slip, or the way to a stop, that is too little to count. Writes motion and phase.
 
     Grip takes slip as an impulse; so nothing is gained.
     """
-    v = vector(ball['velocity'])
-    normal = vector(ball['normal'])
+    v = load(ball['velocity'])
+    normal = load(ball['normal'])
     r = land.ball.radius
-    about = dot(vector(ball['spin']), normal)
+    about = dot(load(ball['spin']), normal)
     if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(land, press):
-        put(ball['spin'], along(vector(ball['spin']), -about, normal))
+        store(ball['spin'], add_scaled(load(ball['spin']), -about, normal))
     if ball['phase'] == SLIDE:
-        u = slip(v, vector(ball['spin']), normal, r)
+        u = slip(v, load(ball['spin']), normal, r)
         if grips and length(u) <= slip_limit(land, press):
-            take_slip(land, ball)
+            remove_slip(land, ball)
             ball['phase'] = ROLL
         return
     slowing = -dot(force, v)
-    if length(v) <= STILL or slowing <= 0.0 or material_under(land, ball)['rolling_resistance'] == 0.0:
+    if length(v) <= LEAST_SPEED or slowing <= 0.0 or material_under(land, ball)['rolling_resistance'] == 0.0:
         return
     if 0.5 * dot(v, v) * dot(v, v) <= land.limits.path * slowing * length(v):
-        put(ball['velocity'], ZERO)
-        settle(land, ball, now)
+        store(ball['velocity'], ZERO)
+        choose_contact_mode(land, ball, now)
 
 
 @kernel
@@ -146,17 +146,17 @@ def slip_limit(land, press):
 
 
 @kernel
-def time_to_wind_off(land, ball, press, turn):
+def time_to_unwind(land, ball, press, turn):
     """Time [s] until pivot friction has taken the spin about the normal, of a ball that turns about it.
 
     A normal that turns drives that spin: where it does so harder than friction brakes, there is no such time.
     """
     r = land.ball.radius
     material = material_under(land, ball)
-    about = dot(vector(ball['spin']), vector(ball['normal']))
-    if material['pivot_friction'] == 0.0 or abs(about) * r <= STILL:
+    about = dot(load(ball['spin']), load(ball['normal']))
+    if material['pivot_friction'] == 0.0 or abs(about) * r <= LEAST_SPEED:
         return inf
-    drive = dot(vector(ball['spin']), turn)
+    drive = dot(load(ball['spin']), turn)
     losing = unwinding(material, press, r, land.ball.inertia) - (drive if about > 0.0 else -drive)
     return abs(about) / losing if losing > 0.0 else inf
 
@@ -164,14 +164,14 @@ def time_to_wind_off(land, ball, press, turn):
 @shared
 def time_to_change(land, ball, force, press):
     """About how long [s] until slip ends, or until a braked ball stops."""
-    v = vector(ball['velocity'])
+    v = load(ball['velocity'])
     material = material_under(land, ball)
     if ball['phase'] == SLIDE:
-        u = slip(v, vector(ball['spin']), vector(ball['normal']), land.ball.radius)
+        u = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
         losing = (1.0 + 1.0 / land.ball.inertia) * material['dynamic_friction'] * press
-        return length(u) / losing if losing > 0.0 and length(u) > STILL else inf
+        return length(u) / losing if losing > 0.0 and length(u) > LEAST_SPEED else inf
     slowing = -dot(force, v)
-    if material['rolling_resistance'] == 0.0 or length(v) <= STILL:
+    if material['rolling_resistance'] == 0.0 or length(v) <= LEAST_SPEED:
         return inf
     # Across its way it is braked at the rate of resistance over speed, even where a slope nearly drives it.
     braked = length(v) / (material['rolling_resistance'] * max(press, 1e-3))
@@ -179,7 +179,7 @@ def time_to_change(land, ball, force, press):
 
 
 @shared
-def share_left(land, ball, v, slipping, holding, held):
+def step_share_to_change(land, ball, v, slipping, holding, held):
     """Share of the step that goes no further than to where the equations change, or 1.
 
     ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the end.
@@ -190,9 +190,9 @@ def share_left(land, ball, v, slipping, holding, held):
     if gain > allowed:
         return max(0.9 * allowed / gain, 0.1)
     if ball['phase'] == SLIDE:
-        turned = length(slipping) > STILL and dot(slipping, slip_at_end(land, ball)) < 0.0
+        turned = length(slipping) > LEAST_SPEED and dot(slipping, slip_at_end(land, ball)) < 0.0
     else:
-        turned = (material_under(land, ball)['rolling_resistance'] > 0.0 and length(v) > STILL
+        turned = (material_under(land, ball)['rolling_resistance'] > 0.0 and length(v) > LEAST_SPEED
                   and dot(v, end_velocity(ball)) < 0.0)
     return 0.5 if turned else 1.0
 
@@ -204,41 +204,41 @@ def gained(land, ball):
     Ground only takes some: there is a gain where its curvature jumps, from edge to wall, and no stage of the
     step tells so.
     """
-    place = vector(ball['position'])
-    way = vector(ball['path'][5])
-    v0, v1 = vector(ball['velocity']), end_velocity(ball)
-    w0, w1 = vector(ball['spin']), vector(ball['twist'][3])
+    place = load(ball['position'])
+    way = load(ball['path'][5])
+    v0, v1 = load(ball['velocity']), end_velocity(ball)
+    w0, w1 = load(ball['spin']), load(ball['twist'][3])
     inertia = land.ball.inertia * land.ball.radius * land.ball.radius
-    weight = scale(0.5, add(pull(land.effects, place), pull(land.effects, add(place, way))))
+    weight = scale(0.5, add(gravity_at(land.effects, place), gravity_at(land.effects, add(place, way))))
     gain = 0.5 * (dot(v1, v1) - dot(v0, v0) + inertia * (dot(w1, w1) - dot(w0, w0))) - dot(weight, way)
-    if in_tail(ball, ball['begin']):
-        gain -= length(vector(ball['tail_air'])) * ball['span'] * max(length(v0), length(v1))
+    if in_micro_bounces(ball, ball['begin']):
+        gain -= length(load(ball['tail_air'])) * ball['span'] * max(length(v0), length(v1))
     return gain
 
 
 @shared
-def put_on_ground(land, ball):
+def project_to_ground(land, ball):
     """Put the end of the piece on the ground, moving along it. Writes the curve; returns the press there.
 
     Not after the shortest of steps: the rounding of far places, 5e-14 m, over a nanosecond is speed.
     """
     r = land.ball.radius
-    x0 = vector(ball['position'])
-    way = vector(ball['path'][5])
-    distance, normal = surfaces.nearest(land.ground, ball['support'], along(x0, 1.0, way))
+    x0 = load(ball['position'])
+    way = load(ball['path'][5])
+    distance, normal = surfaces.nearest(land.ground, ball['support'], add_scaled(x0, 1.0, way))
     if ball['span'] > SHORT_STEP:
-        way = along(way, r - distance, normal)
-    end = along(x0, 1.0, way)
+        way = add_scaled(way, r - distance, normal)
+    end = add_scaled(x0, 1.0, way)
     velocity = end_velocity(ball)
-    velocity = along(velocity, -dot(velocity, normal), normal)
-    spin = vector(ball['twist'][3])
+    velocity = add_scaled(velocity, -dot(velocity, normal), normal)
+    spin = load(ball['twist'][3])
     if ball['phase'] == ROLL:
-        spin = along(scale(1.0 / r, cross(normal, velocity)), dot(spin, normal), normal)
-    put(ball['twist'][3], spin)
-    force, torque, press, _ = following_rates(land, ball, end, velocity, spin)
+        spin = add_scaled(scale(1.0 / r, cross(normal, velocity)), dot(spin, normal), normal)
+    store(ball['twist'][3], spin)
+    force, torque, press, _ = contact_rates(land, ball, end, velocity, spin)
     first = ball['stages'][0]
-    lay(ball, way, (vector(ball['velocity']), velocity), (vector(first[3:6]), force),
-        (vector(first[6:9]), torque))
+    fit_segment(ball, way, (load(ball['velocity']), velocity), (load(first[3:6]), force),
+        (load(first[6:9]), torque))
     return press
 
 
@@ -246,12 +246,12 @@ def put_on_ground(land, ball):
 def end_velocity(ball):
     """Velocity at the end of the piece."""
     w = ball['path']
-    return scale(5.0 / ball['span'], sub(vector(w[5]), vector(w[4])))
+    return scale(5.0 / ball['span'], sub(load(w[5]), load(w[4])))
 
 
 @kernel
 def slip_at_end(land, ball):
     """Slip of the ball at the end of its piece."""
-    place = along(vector(ball['origin']), 1.0, vector(ball['path'][5]))
+    place = add_scaled(load(ball['origin']), 1.0, load(ball['path'][5]))
     _, normal = surfaces.nearest(land.ground, ball['support'], place)
-    return slip(end_velocity(ball), vector(ball['twist'][3]), normal, land.ball.radius)
+    return slip(end_velocity(ball), load(ball['twist'][3]), normal, land.ball.radius)

@@ -142,7 +142,7 @@ def wind_at(effects, ground, position):
 
 
 @kernel
-def pull(effects, position):
+def gravity_at(effects, position):
     """Acceleration that acts on every ball at `position`."""
     total = ZERO
     for effect in literal_unroll(effects):
@@ -151,7 +151,7 @@ def pull(effects, position):
 
 
 @kernel
-def meet_air(effects, ground, position, velocity, spin):
+def airflow(effects, ground, position, velocity, spin):
     """`Flow` of the air around a flying ball."""
     through_air = sub(velocity, wind_at(effects, ground, position))
     return protocol.Flow(through_air, length(through_air), spin, position, velocity)
@@ -160,7 +160,7 @@ def meet_air(effects, ground, position, velocity, spin):
 @kernel
 def flight_rates(effects, ground, position, velocity, spin):
     """Acceleration and rate of change of spin of a flying ball."""
-    flow = meet_air(effects, ground, position, velocity, spin)
+    flow = airflow(effects, ground, position, velocity, spin)
     force = ZERO
     torque = ZERO
     for effect in literal_unroll(effects):
@@ -172,7 +172,7 @@ def flight_rates(effects, ground, position, velocity, spin):
 @kernel
 def sinking(effects, position, velocity):
     """Acceleration of a ball under water."""
-    weight = pull(effects, position)
+    weight = gravity_at(effects, position)
     force = weight
     for effect in literal_unroll(effects):
         force = add(force, protocol.under_water(effect, weight, velocity))
@@ -185,21 +185,21 @@ def longest_step(effects, ground, state, force, wanted):
 
     Of a flying ball whose `state` is position, velocity and spin, and that `force` accelerates [m/s^2].
     """
-    flow = meet_air(effects, ground, *state)
+    flow = airflow(effects, ground, *state)
     for effect in literal_unroll(effects):
         wanted = protocol.longest_step(effect, ground, flow, force, wanted)
     return wanted
 
 
 @kernel
-def blow(effects, wind):
+def set_wind(effects, wind):
     """Let the air move with `wind` [m/s at 10 m] from now on. Writes into the effects' records."""
     for effect in literal_unroll(effects):
-        protocol.take_wind(effect, wind)
+        protocol.set_wind(effect, wind)
 
 
 @kernel
-def felt_normal(effects, normal, velocity, softness):
+def effective_normal(effects, normal, velocity, softness):
     """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
     for effect in literal_unroll(effects):
         normal = protocol.contact_normal(effect, normal, velocity, softness)

@@ -8,7 +8,7 @@ from ..jit import kernel
 from ..mechanics.vector import ZERO
 from . import protocol
 from .drag import dynamic_push
-from .published import drag_and_lift, spin_ratio, turning_about
+from .published import drag_and_lift, spin_ratio, spin_axis_terms
 
 # Aeronautical Quarterly 27 (1976) 112-122, as digitised by others, +-0.008: Re of 1.26e5 to 2.38e5.
 RATIO = (0.02, 0.05, 0.075, 0.10, 0.125, 0.15, 0.175, 0.20, 0.225, 0.25, 0.275, 0.342, 0.46, 0.641, 1.0)
@@ -32,7 +32,7 @@ class BearmanHarvey1976(NamedTuple):
 
 
 @kernel
-def read(table, s):
+def interpolated(table, s):
     """Drag and lift coefficient at `s`: Hermite's cubic between two rows."""
     last = len(table) - 1
     s = min(max(s, table[0, 0]), table[last, 0])
@@ -54,11 +54,11 @@ def _acceleration(effect, flow):
     if flow.speed == 0.0:
         return ZERO
     ratio = spin_ratio(effect.radius, flow)
-    drag, lift = read(effect.table, ratio)
+    drag, lift = interpolated(effect.table, ratio)
     return drag_and_lift(effect.push, flow, ratio, drag, lift)
 
 
-protocol.longest_step.register(BearmanHarvey1976)(turning_about)
+protocol.longest_step.register(BearmanHarvey1976)(spin_axis_terms)
 
 
 def record(scene):

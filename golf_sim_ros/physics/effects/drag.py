@@ -76,7 +76,7 @@ def _acceleration(effect, flow):
 @protocol.longest_step.register(Drag)
 def turning_about(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook how drag of the square of the speed turns about."""
-    return protocol.passing(flow.velocity, force, CREEPING, wanted) if effect.push > 0.0 else wanted
+    return protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted) if effect.push > 0.0 else wanted
 
 
 def dynamic_push(course):

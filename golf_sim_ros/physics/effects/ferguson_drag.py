@@ -5,7 +5,7 @@ from typing import NamedTuple
 from ..mechanics.vector import length, scale
 from . import protocol
 from .drag import dynamic_push
-from .published import turning_about
+from .published import spin_axis_terms
 
 # Ferguson, McNally, McPhee (2022), doi 10.5703/1288284317493: fitted to radar carry and apex of
 # 1040 shots with a Pro V1, for spin ratios of 0.02 to 0.75. The parabola's vertex, 0.562, lies
@@ -37,7 +37,7 @@ def _acceleration(effect, flow):
     return scale(-effect.push * coefficient * flow.speed, flow.velocity)
 
 
-protocol.longest_step.register(FergusonDrag)(turning_about)
+protocol.longest_step.register(FergusonDrag)(spin_axis_terms)
 
 
 def record(scene):

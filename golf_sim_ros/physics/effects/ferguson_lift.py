@@ -6,7 +6,7 @@ from typing import NamedTuple
 from ..mechanics.vector import cross, length, scale
 from . import protocol
 from .drag import dynamic_push
-from .published import FADE, turning_about
+from .published import FADE, spin_axis_terms
 
 # Ferguson, McNally, McPhee (2022); see ferguson_drag.py. Held from the vertex of the parabola, 0.524, on.
 FERGUSON_LIFT = (0.0504, 1.2031, -1.1490)
@@ -44,7 +44,7 @@ def _acceleration(effect, flow):
     return scale(effect.push * strength * flow.speed * flow.speed, across)
 
 
-protocol.longest_step.register(FergusonLift)(turning_about)
+protocol.longest_step.register(FergusonLift)(spin_axis_terms)
 
 
 def record(scene):

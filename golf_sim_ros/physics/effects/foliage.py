@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..geometry.solid import Sphere, box
+from ..geometry.solid import Sphere, solid_box
 from ..jit import kernel
 from ..mechanics.vector import ZERO, length, scale
 from . import protocol
@@ -64,7 +64,7 @@ def record(scene):
     rows = []
     for shape in leafy(scene.course):
         is_sphere = isinstance(shape, Sphere)
-        low, high = box(shape)
+        low, high = solid_box(shape)
         rows.append((shape.center if is_sphere else shape.base, shape.radius, low[2], high[2], is_sphere,
                      shape.material.drag))
     return Foliage(np.array(rows, LEAF))

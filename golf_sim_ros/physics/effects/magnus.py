@@ -70,7 +70,7 @@ def _longest_step(effect, ground, flow, force, wanted):
         return wanted
     # Lift turns about where the velocity sweeps past the axis of spin.
     blunt = BEND * effect.law.early_at * flow.speed * flow.speed / effect.radius
-    return protocol.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
+    return protocol.step_to_alignment(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
 
 
 def record(scene):

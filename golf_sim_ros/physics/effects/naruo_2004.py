@@ -5,7 +5,7 @@ from typing import NamedTuple
 from ..mechanics.vector import ZERO
 from . import protocol
 from .drag import dynamic_push
-from .published import drag_and_lift, spin_ratio, turning_about
+from .published import drag_and_lift, spin_ratio, spin_axis_terms
 
 MOST_RATIO = 1.13  # measured for S of 0.03 to this, Re of 7.1e4 to 1.25e5
 
@@ -33,7 +33,7 @@ def _acceleration(effect, flow):
     return drag_and_lift(effect.push, flow, ratio, drag, lift)
 
 
-protocol.longest_step.register(Naruo2004)(turning_about)
+protocol.longest_step.register(Naruo2004)(spin_axis_terms)
 
 
 def record(scene):

@@ -55,7 +55,7 @@ def longest_step(effect, ground, flow, force, wanted):
 
 
 @kernel
-def passing(arrow, change, blunt, wanted):
+def step_to_alignment(arrow, change, blunt, wanted):
     """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes through zero.
 
     A law that follows its direction turns about at once there, within `blunt` of its length. To first
@@ -75,7 +75,7 @@ def passing(arrow, change, blunt, wanted):
 
 @shared
 def slowed(turning, closing, off, blunt, wanted):
-    """`passing`, where it cuts the step; apart, or processors would divide and take the root each time."""
+    """`step_to_alignment`, where it cuts the step; apart, or processors would divide and take the root each time."""
     ahead = closing / turning
     width = sqrt((max(off - closing * ahead, 0.0) + blunt * blunt) / turning)
     return min(max(0.5 * abs(ahead), width, BRIEF), wanted)
@@ -100,5 +100,5 @@ def contact_normal(effect, normal, velocity, softness):
 
 
 @generic
-def take_wind(effect, wind):
+def set_wind(effect, wind):
     """Let `effect` go on with another `wind` [m/s at 10 m]; of an effect that keeps the wind."""

@@ -30,8 +30,8 @@ def drag_and_lift(push, flow, ratio, drag, lift):
     return add(braking, scale(push * lift * fading * flow.speed * flow.speed / size, across))
 
 
-def turning_about(effect, ground, flow, force, wanted):
+def spin_axis_terms(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook where drag or lift by a published law turns about."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
-    wanted = protocol.passing(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
-    return protocol.passing(flow.velocity, force, CREEPING, wanted)
+    wanted = protocol.step_to_alignment(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
+    return protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from ..mechanics.vector import ZERO
 from . import protocol
 from .drag import dynamic_push, reynolds_number
-from .published import drag_and_lift, spin_ratio, turning_about
+from .published import drag_and_lift, spin_ratio, spin_axis_terms
 
 INSTEAD_OF = ('drag', 'magnus')
 
@@ -33,7 +33,7 @@ def _acceleration(effect, flow):
     return drag_and_lift(effect.push, flow, ratio, drag, 0.54 * ratio ** 0.4)
 
 
-protocol.longest_step.register(SmitsSmith1994)(turning_about)
+protocol.longest_step.register(SmitsSmith1994)(spin_axis_terms)
 
 
 def record(scene):

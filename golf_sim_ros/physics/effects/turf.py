@@ -24,7 +24,7 @@ TILT = 15.4 * pi / 180
 SPEED = 18.6  # m/s
 ANGLE = 44.4 * pi / 180
 MOST = 30.0 * pi / 180
-FADE = 1.5  # m/s
+TURF_FADE = 1.5  # m/s
 
 
 class Turf(NamedTuple):
@@ -35,7 +35,7 @@ class Turf(NamedTuple):
 
     rate: float = TILT / (SPEED * ANGLE)
     most: float = MOST
-    fade: float = FADE
+    fade: float = TURF_FADE
 
 
 @protocol.contact_normal.register(Turf)

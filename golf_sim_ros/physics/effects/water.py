@@ -12,7 +12,7 @@ from . import protocol
 DRAG_COEFFICIENT = 0.45
 
 
-class Water(NamedTuple):
+class UnderWater(NamedTuple):
     """A ball of velocity v is accelerated by `share` times (1 - `buoyancy`) g - `push` |v| v.
 
     `push` is rho A cd / (2 m) [1/m]; `buoyancy` the water's density over the ball's; `share` the ball's
@@ -24,7 +24,7 @@ class Water(NamedTuple):
     share: float
 
 
-@protocol.under_water.register(Water)
+@protocol.under_water.register(UnderWater)
 def _under_water(effect, weight, velocity):
     felt = scale(1.0 - effect.buoyancy, weight)
     drag = scale(-effect.push * length(velocity), velocity)
@@ -36,7 +36,7 @@ def record(scene):
     ball = scene.course.ball
     buoyancy = 4.0 / 3.0 * pi * ball.radius ** 3 * WATER_DENSITY / ball.mass
     push = 0.5 * WATER_DENSITY * DRAG_COEFFICIENT * pi * ball.radius ** 2 / ball.mass
-    return Water(float(push), float(buoyancy), float(1.0 / (1.0 + ADDED_MASS * buoyancy)))
+    return UnderWater(float(push), float(buoyancy), float(1.0 / (1.0 + ADDED_MASS * buoyancy)))
 
 
 def idle(scene):

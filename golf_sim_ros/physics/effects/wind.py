@@ -7,11 +7,11 @@ import numpy as np
 
 from ..geometry.surfaces import ground_height
 from ..jit import kernel
-from ..mechanics.vector import ZERO, put, scale, vector
+from ..mechanics.vector import ZERO, store, scale, load
 from . import protocol
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
-STILL = -1
+LEAST_WIND = -1
 # A step ends at the latest where height over the ground, and the profile's roughness, has grown by so much of
 # itself: what a law does on its first centimetres would be over before any stage saw it.
 GROWTH = 2.0
@@ -64,23 +64,23 @@ def from_ground(ground, position):
 
 @protocol.air_velocity.register(Wind)
 def _air_velocity(effect, ground, position):
-    if effect.law == STILL:
+    if effect.law == LEAST_WIND:
         return ZERO
     above = 0.0 if effect.law == 0 else from_ground(ground, position)
-    return scale(share(effect, above), vector(effect.velocity))
+    return scale(share(effect, above), load(effect.velocity))
 
 
 @protocol.longest_step.register(Wind)
 def _longest_step(effect, ground, flow, force, wanted):
-    if effect.law == STILL or effect.law == 0 or vector(effect.velocity) == ZERO:
+    if effect.law == LEAST_WIND or effect.law == 0 or load(effect.velocity) == ZERO:
         return wanted
     bending = max(from_ground(ground, flow.position), 0.0) + (effect.parameter if effect.law == 1 else STEEP)
     return min(max(GROWTH * bending / max(abs(flow.over_ground[2]), 1e-9), protocol.BRIEF), wanted)
 
 
-@protocol.take_wind.register(Wind)
+@protocol.set_wind.register(Wind)
 def _take_wind(effect, wind):
-    put(effect.velocity, wind)
+    store(effect.velocity, wind)
 
 
 def blowing(profile, velocity):
@@ -106,4 +106,4 @@ def idle(scene):
 
 def dormant(scene):
     """Record of a wind that does not blow: one that comes up later compiles nothing."""
-    return Wind(np.zeros(3), STILL, 1.0, 1.0)
+    return Wind(np.zeros(3), LEAST_WIND, 1.0, 1.0)

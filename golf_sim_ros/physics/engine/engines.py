@@ -17,7 +17,7 @@ from .orientation import turn
 from .planner import put_down
 
 ENGINES = 'auto', 'python', 'compiled'
-VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate`, `simulate_many`
+ENGINE_VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate`, `simulate_many`
 WORTH_COMPILING = 10.0  # s that plain Python has taken: compiling takes about half a minute, once a machine
 LOG = logging.getLogger('golf_sim_ros')
 
@@ -55,7 +55,7 @@ def checked_engine(name):
         Naming the unknown engine and the known ones.
     """
     if name == 'auto':
-        name = os.environ.get(VARIABLE) or name
+        name = os.environ.get(ENGINE_VARIABLE) or name
     if name not in ENGINES:
         raise ValueError(f'engine {name!r} is unknown; known: {", ".join(ENGINES)}')
     return name
@@ -64,7 +64,7 @@ def checked_engine(name):
 def prefer_compiled():
     """Let 'auto' be the compiled engine in this process and its children, where there is one."""
     if not missing():
-        os.environ.setdefault(VARIABLE, 'compiled')
+        os.environ.setdefault(ENGINE_VARIABLE, 'compiled')
 
 
 class Program:

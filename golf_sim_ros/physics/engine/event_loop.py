@@ -8,27 +8,27 @@ read at the time asked for. Nothing ever steps to a tick, so paths do not depend
 import numpy as np
 
 from ..collision import ball_gap, ball_interactions  # noqa: F401  (they say what balls do to each other)
-from ..collision.workspace import MEMBERS, first_due
-from ..contact.contact_state import settle
-from ..effects import blow
+from ..collision.workspace import INVOLVED, next_event_ball
+from ..contact.contact_state import choose_contact_mode
+from ..effects import set_wind
 from ..geometry import surfaces
 from ..jit import borrowed, cycles, entry, kernel, shared
-from ..mechanics.vector import ZERO, put, unit, vector
+from ..mechanics.vector import ZERO, store, unit, load
 from ..response import ball_impact, time_stepping  # noqa: F401  (they say what balls do to each other)
-from ..response.contact_set import disperse, enlist
-from ..response.ground_impact import cross_border, meet
-from ..response.water_impact import drown, emerge, is_over, splash
-from ..response.wedged_ball import hold, is_caught
-from ..state.ball import (BALL_STOPS, BORDER, ENDED, FLIGHT, HIT, HOLED, LAUNCH, MEETING, OUT, REST,
-                          SLIP_STOPS, SPLASH, STEP, TIME_LIMIT, WATER, moves)
+from ..response.contact_set import clear_set, add_to_set
+from ..response.ground_impact import cross_border, resolve_ground_impact
+from ..response.water_impact import sink, leave_water, has_ended_in_water, resolve_water_impact
+from ..response.wedged_ball import step_wedged, is_wedged
+from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, HOLED, LAUNCH, BALL_IMPACT, OUT, REST,
+                          SLIP_STOPS, WATER_ENTRY, STEP_END, TIME_LIMIT, WATER, moves)
 from ..state.events import LOST, SHOT_ENDS
-from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, fault, is_finite, keep_end, keep_highest,
-                                      tee_off, tell_gone)
-from .planner import LONGEST_SHOT, drift, launch, lay_next, read, stop_slip
+from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, check_segment, is_finite, copy_result, update_apex,
+                                      begin_shot, log_out_of_bounds)
+from .planner import LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_next_segment, read_segment, stop_slip
 
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'
-IN_FLIGHT, IN_CONTACT, NEIGHBOURS = range(3)
+IN_FLIGHT, IN_CONTACT, IN_BROAD_PHASE = range(3)
 EVENTS_A_BALL = 3  # that one piece's end can log, but for impacts of balls
 
 
@@ -39,37 +39,37 @@ def advance(model, balls, until, crowd, log):
     Returns DONE, or LOG_FULL when `log` must be emptied before going on: it is full, or a shot has ended,
     which is to be told before anything else happens to its ball.
     """
-    return run(borrowed(model), borrowed(balls), until, borrowed(crowd), borrowed(log))
+    return run_events(borrowed(model), borrowed(balls), until, borrowed(crowd), borrowed(log))
 
 
 @shared
-def run(model, balls, until, crowd, log):
+def run_events(model, balls, until, crowd, log):
     """`advance`, of borrowed records."""
     for i in range(len(balls)):
         crowd.ends[i] = balls[i]['end']
-    ball_interactions.prepare(crowd, balls, model.land.ball.radius)
-    since = book(crowd, NEIGHBOURS, cycles() if len(crowd.spent) else 0)
+    ball_interactions.prepare_broad_phase(crowd, balls, model.land.ball.radius)
+    since = count_cycles(crowd, IN_BROAD_PHASE, cycles() if len(crowd.spent) else 0)
     while True:
-        i = first_due(crowd, until)
+        i = next_event_ball(crowd, until)
         if i < 0:
             break
         if log.count[1] or 2 * log.count[0] > len(log.events):
             return LOG_FULL
         now = balls[i]['end']
-        since = book(crowd, NEIGHBOURS, since)
-        stage = IN_CONTACT if balls[i]['ending'] == HIT else stage_of(balls[i])
-        enlist(crowd, i)
+        since = count_cycles(crowd, IN_BROAD_PHASE, since)
+        stage = IN_CONTACT if balls[i]['ending'] == GROUND_IMPACT else stage_of(balls[i])
+        add_to_set(crowd, i)
         resolve(model, balls, i, crowd, log)
-        since = book(crowd, stage, since)
-        for k in range(crowd.count[MEMBERS]):
-            finish(model, balls[crowd.members[k]], crowd.members[k], now, log)
-            lay(model, balls[crowd.members[k]], crowd.members[k], now, log)
-            since = note(balls, crowd.members[k], model.land.ball.radius, crowd, since)
-        for k in range(crowd.count[MEMBERS]):
-            look_out(balls, crowd.members[k], model.land.ball.radius, now, crowd)
-        disperse(crowd)
+        since = count_cycles(crowd, stage, since)
+        for k in range(crowd.count[INVOLVED]):
+            end_if_over(model, balls[crowd.members[k]], crowd.members[k], now, log)
+            plan_or_fail(model, balls[crowd.members[k]], crowd.members[k], now, log)
+            since = note_segment(balls, crowd.members[k], model.land.ball.radius, crowd, since)
+        for k in range(crowd.count[INVOLVED]):
+            limit_by_balls(balls, crowd.members[k], model.land.ball.radius, now, crowd)
+        clear_set(crowd)
     for i in range(len(balls)):
-        read(balls[i], until)
+        read_segment(balls[i], until)
     return DONE
 
 
@@ -83,58 +83,58 @@ def resolve(model, balls, i, crowd, log):
     now = ball['end']
     ending = ball['ending']
     if ending != LAUNCH:
-        keep_highest(ball)
-        read(ball, now)
+        update_apex(ball)
+        read_segment(ball, now)
         if ball['water'] > 0:
-            emerge(model.land, ball)
+            leave_water(model.land, ball)
     if ending == LAUNCH:
         launch(model, ball, now)
-        ball_interactions.rouse(crowd, balls, model.land.ball.radius, now)
-    elif ending == SPLASH:
-        splash(model.land, ball, i, now, log)
-    elif ball['water'] > 0 and ending == HIT:
-        drown(ball)
-    elif ending == HIT:
+        ball_interactions.wake(crowd, balls, model.land.ball.radius, now)
+    elif ending == WATER_ENTRY:
+        resolve_water_impact(model.land, ball, i, now, log)
+    elif ball['water'] > 0 and ending == GROUND_IMPACT:
+        sink(ball)
+    elif ending == GROUND_IMPACT:
         before = ball['tail_end']
-        meet(model.land, balls, i, now, crowd, log)
+        resolve_ground_impact(model.land, balls, i, now, crowd, log)
         if ball['tail_end'] > max(before, now):
-            drift(model, ball, now)
-    elif ending == MEETING:
-        ball_interactions.bump(crowd, model.land, balls, i, now, log)
-        ball_interactions.rouse(crowd, balls, model.land.ball.radius, now)
-    elif ending == BORDER:
+            apply_air_to_micro_bounces(model, ball, now)
+    elif ending == BALL_IMPACT:
+        ball_interactions.resolve_ball_impact(crowd, model.land, balls, i, now, log)
+        ball_interactions.wake(crowd, balls, model.land.ball.radius, now)
+    elif ending == BORDER_CROSSING:
         cross_border(model.land, ball, now)
-    elif ball_interactions.lean(crowd, model.land, balls, i, now):
+    elif ball_interactions.step_together(crowd, model.land, balls, i, now):
         pass
-    elif is_caught(ball):
-        hold(model.land, balls, i, now, crowd)
+    elif is_wedged(ball):
+        step_wedged(model.land, balls, i, now, crowd)
     elif ball['phase'] != FLIGHT:
-        ahead = unit(vector(ball['velocity']), ZERO)
-        _, normal = surfaces.under(model.land.ground, ball['support'], vector(ball['position']), ahead)
-        put(ball['normal'], normal)
+        ahead = unit(load(ball['velocity']), ZERO)
+        _, normal = surfaces.under(model.land.ground, ball['support'], load(ball['position']), ahead)
+        store(ball['normal'], normal)
         if ending == SLIP_STOPS:
             stop_slip(model, ball)
         elif ending == BALL_STOPS:
-            put(ball['velocity'], ZERO)
-        settle(model.land, ball, now)
+            store(ball['velocity'], ZERO)
+        choose_contact_mode(model.land, ball, now)
 
 
 @kernel
-def finish(model, ball, number, now, log):
+def end_if_over(model, ball, number, now, log):
     """End the shot of a ball that has stopped, is lost, or has been on its way for too long."""
     if not is_finite(ball):
         fail(ball, number, now, NOT_FINITE, log)
     before = ball['phase']
-    if moves(before) and is_below(model.land.ground, ball, model.land.ball.radius):
+    if moves(before) and is_below_ground(model.land.ground, ball, model.land.ball.radius):
         ball['phase'] = OUT
-    elif is_over(model.land, ball):
-        drown(ball)
+    elif has_ended_in_water(model.land, ball):
+        sink(ball)
     elif before == REST and is_in_hole(model, ball):
         ball['phase'] = HOLED
     if is_out(model.land.ground, ball, model.land.ball.radius):
         ball['phase'] = OUT
     if ball['phase'] == OUT and before != OUT:
-        tell_gone(ball, number, now, log)
+        log_out_of_bounds(ball, number, now, log)
     is_lost = ball['phase'] == OUT or ball['phase'] == WATER
     if is_lost and ball['knocked'] and not ball['playing']:
         ball['knocked'] = 0
@@ -144,23 +144,23 @@ def finish(model, ball, number, now, log):
 
 
 @kernel
-def lay(model, ball, number, now, log):
+def plan_or_fail(model, ball, number, now, log):
     """Lay the ball's next piece; if it can't go on, its shot fails. Writes piece."""
-    lay_next(model, ball, now)
+    plan_next_segment(model, ball, now)
     if moves(ball['phase']):
-        why = fault(ball, now)
+        why = check_segment(ball, now)
         if why:
             fail(ball, number, now, why, log)
-            lay_next(model, ball, now)
+            plan_next_segment(model, ball, now)
 
 
 @kernel
-def note(balls, i, radius, crowd, since):
-    """Take note of ball `i`'s new piece. Writes crowd. Returns the cycles at its end; see `book`."""
-    since = book(crowd, stage_of(balls[i]), since)
+def note_segment(balls, i, radius, crowd, since):
+    """Take note of ball `i`'s new piece. Writes crowd. Returns the cycles at its end; see `count_cycles`."""
+    since = count_cycles(crowd, stage_of(balls[i]), since)
     crowd.ends[i] = balls[i]['end']
-    ball_interactions.note(crowd, balls, i, radius)
-    return book(crowd, NEIGHBOURS, since)
+    ball_interactions.update_tree(crowd, balls, i, radius)
+    return count_cycles(crowd, IN_BROAD_PHASE, since)
 
 
 @kernel
@@ -170,7 +170,7 @@ def stage_of(ball):
 
 
 @kernel
-def book(crowd, stage, since):
+def count_cycles(crowd, stage, since):
     """Book the cycles from `since` until now on a stage, if somebody asks. Returns now. Writes spent."""
     if len(crowd.spent) == 0:
         return since
@@ -181,28 +181,28 @@ def book(crowd, stage, since):
 
 @entry
 def cycles_now():
-    """Cycles of the processor so far, as in `book`."""
+    """Cycles of the processor so far, as in `count_cycles`."""
     return cycles()
 
 
 @kernel
-def look_out(balls, i, radius, now, crowd):
+def limit_by_balls(balls, i, radius, now, crowd):
     """End ball `i`'s piece where it meets another ball. Writes end, ending, target."""
     ball = balls[i]
     if moves(ball['phase']):
-        time, other, hit = ball_interactions.meeting(crowd, balls, i, radius, now)
+        time, other, hit = ball_interactions.first_ball_contact(crowd, balls, i, radius, now)
         if time < ball['end'] or hit:
             ball['end'] = time
-            ball['ending'] = MEETING if hit else STEP
+            ball['ending'] = BALL_IMPACT if hit else STEP_END
             ball['target'] = other
             crowd.ends[i] = time
-            ball_interactions.note(crowd, balls, i, radius)
+            ball_interactions.update_tree(crowd, balls, i, radius)
     elif ball['phase'] == REST:
-        ball_interactions.stand_in_the_way(crowd, balls, i, radius, now)
+        ball_interactions.interrupt_segments(crowd, balls, i, radius, now)
 
 
 @kernel
-def is_below(ground, ball, radius):
+def is_below_ground(ground, ball, radius):
     """Whether the ball fell below all ground."""
     return ball['water'] == 0 and ball['position'][2] < ground.lowest - 10.0 * radius
 
@@ -222,7 +222,7 @@ def is_out(ground, ball, radius):
 def is_in_hole(model, ball):
     """Whether the ball's centre is in the hole."""
     hole = model.land.ground.hole
-    return len(hole) > 0 and surfaces.in_cup(hole, vector(ball['position']))
+    return len(hole) > 0 and surfaces.in_cup(hole, load(ball['position']))
 
 
 @entry
@@ -242,19 +242,19 @@ def play_all(model, ball, strikes, gusts, crowd, log):
     one = borrowed(played)
     for i in range(len(strikes)):
         played[0] = ball[0]
-        put(one[0]['velocity'], vector(strikes[i, 0:3]))
-        put(one[0]['spin'], vector(strikes[i, 3:6]))
-        tee_off(one[0], 0.0)
-        blow(model.effects, vector(gusts[0, 1:4]))
+        store(one[0]['velocity'], load(strikes[i, 0:3]))
+        store(one[0]['spin'], load(strikes[i, 3:6]))
+        begin_shot(one[0], 0.0)
+        set_wind(model.effects, load(gusts[0, 1:4]))
         gust = 1
         while one[0]['playing']:
             log.count[:] = 0
             until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
-            if run(model, one, until, crowd, log) == DONE and gust < len(gusts):
-                blow(model.effects, vector(gusts[gust, 1:4]))
+            if run_events(model, one, until, crowd, log) == DONE and gust < len(gusts):
+                set_wind(model.effects, load(gusts[gust, 1:4]))
                 end_now(one[0], until)
                 gust += 1
-        keep_end(one[0], ends[i])
+        copy_result(one[0], ends[i])
     return ends
 
 
@@ -263,5 +263,5 @@ def end_now(ball, now):
     """End a flying ball's piece at `now`: its surroundings have changed. Writes end, ending."""
     if ball['phase'] == FLIGHT:
         ball['end'] = now
-        ball['ending'] = STEP
+        ball['ending'] = STEP_END
         ball['rated'] = -1.0

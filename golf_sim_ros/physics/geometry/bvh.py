@@ -11,7 +11,7 @@ import numpy as np
 
 FULL = 4  # things that a leaf may hold
 
-NODE = np.dtype([('low', 'f8', 3), ('high', 'f8', 3), ('first', 'i8'), ('last', 'i8'), ('skip', 'i8')],
+BVH_NODE = np.dtype([('low', 'f8', 3), ('high', 'f8', 3), ('first', 'i8'), ('last', 'i8'), ('skip', 'i8')],
                 align=True)
 
 
@@ -23,7 +23,7 @@ def hierarchy(low, high):
     """
     count = len(low)
     if count == 0:
-        return np.zeros(0, NODE), np.zeros(0, np.int64)
+        return np.zeros(0, BVH_NODE), np.zeros(0, np.int64)
     levels = max(0, ceil(log2(count / FULL)))
     rows = np.full((1, -(-count // 2 ** levels) << levels), -1)  # -1: filled up with boxes of nothing
     rows[0, :count] = np.arange(count)
@@ -33,7 +33,7 @@ def hierarchy(low, high):
     for level in range(levels):
         rows = halved(rows, middle, (high[rows].max(1) - low[rows].min(1)).argmax(1))
         numbers.append(np.stack((numbers[-1] + 1, numbers[-1] + 2 ** (levels - level)), 1).ravel())
-    nodes = np.zeros(2 ** (levels + 1) - 1, NODE)
+    nodes = np.zeros(2 ** (levels + 1) - 1, BVH_NODE)
     held = (rows >= 0).sum(1)
     nodes['last'][numbers[-1]] = np.cumsum(held)
     nodes['first'][numbers[-1]] = np.cumsum(held) - held

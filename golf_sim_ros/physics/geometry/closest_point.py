@@ -7,11 +7,11 @@ stays there. Coordinates are metres from the grid's origin.
 from ..jit import kernel, shared
 from .bicubic import bicubic
 
-MOST_STEPS = 60
-DONE = 1e-13  # of the spacing: steps shorter than this change nothing
+MOST_NEWTON_STEPS = 60
+CONVERGED_STEP = 1e-13  # of the spacing: steps shorter than this change nothing
 SURE = 1e-6  # of the spacing: where a step is so short, Newton's method is left alone
-SAMPLES = 5  # a side, to start from where there may be several nearest places
-FAR = (1e300, 1e300, 1e300, 1e300, 1e300)
+START_SAMPLES = 5  # a side, to start from where there may be several nearest places
+NO_SAMPLES = (1e300, 1e300, 1e300, 1e300, 1e300)
 
 
 @kernel
@@ -73,7 +73,7 @@ def descend(table, grid, box, x, y, point):
     x0, y0, x1, y1 = box
     size = grid['spacing']
     at = bicubic(table, grid, x, y)
-    for _ in range(MOST_STEPS):
+    for _ in range(MOST_NEWTON_STEPS):
         gx, gy = pulls(point, x, y, at)
         fixed_x = held(x, x0, x1, gx)
         fixed_y = held(y, y0, y1, gy)
@@ -88,7 +88,7 @@ def descend(table, grid, box, x, y, point):
             dx, dy = newton(a, b, c, gx, gy, True, fixed_y)
         elif not fixed_y and (y <= y0 and dy < 0.0 or y >= y1 and dy > 0.0):
             dx, dy = newton(a, b, c, gx, gy, fixed_x, True)
-        if abs(dx) + abs(dy) <= DONE * size:
+        if abs(dx) + abs(dy) <= CONVERGED_STEP * size:
             break
         share = min(share_within(x, dx, x0, x1), share_within(y, dy, y0, y1))
         before = half_square(point, x, y, at[0])
@@ -112,15 +112,15 @@ def descend(table, grid, box, x, y, point):
 @kernel
 def onto(x, low, high, size):
     """`x` between `low` and `high`, exactly on one that is as good as reached."""
-    if x - low < DONE * size:
+    if x - low < CONVERGED_STEP * size:
         return low
-    if high - x < DONE * size:
+    if high - x < CONVERGED_STEP * size:
         return high
     return x
 
 
 @shared
-def foot(table, grid, box, bend, point):
+def closest_point(table, grid, box, bend, point):
     """Nearest place to `point` in the rectangle `box`, and `bicubic` there.
 
     Where `bend`, a product of curvature and height, is below 1, there is but one; else it is looked for
@@ -133,16 +133,16 @@ def foot(table, grid, box, bend, point):
     best_y = min(max(point[1], y0), y1)
     best_x, best_y, best_at = descend(table, grid, box, best_x, best_y, point)
     best = half_square(point, best_x, best_y, best_at[0])
-    before = after = FAR
+    before = after = NO_SAMPLES
     here = samples(table, grid, box, point, 0)
-    for i in range(SAMPLES):
-        after = samples(table, grid, box, point, i + 1) if i < SAMPLES - 1 else FAR
-        for j in range(SAMPLES):
+    for i in range(START_SAMPLES):
+        after = samples(table, grid, box, point, i + 1) if i < START_SAMPLES - 1 else NO_SAMPLES
+        for j in range(START_SAMPLES):
             if (before[j] < here[j] or after[j] < here[j] or j > 0 and here[j - 1] < here[j]
-                    or j < SAMPLES - 1 and here[j + 1] < here[j]):
+                    or j < START_SAMPLES - 1 and here[j + 1] < here[j]):
                 continue
-            x = x0 + (x1 - x0) * i / (SAMPLES - 1.0)
-            y = y0 + (y1 - y0) * j / (SAMPLES - 1.0)
+            x = x0 + (x1 - x0) * i / (START_SAMPLES - 1.0)
+            y = y0 + (y1 - y0) * j / (START_SAMPLES - 1.0)
             x, y, at = descend(table, grid, box, x, y, point)
             far = half_square(point, x, y, at[0])
             if far < best:
@@ -159,12 +159,12 @@ def foot(table, grid, box, bend, point):
 def samples(table, grid, box, point, i):
     """Half the squared distances of `point` from the places of row `i` of the samples."""
     x0, y0, x1, y1 = box
-    x = x0 + (x1 - x0) * i / (SAMPLES - 1.0)
+    x = x0 + (x1 - x0) * i / (START_SAMPLES - 1.0)
     y = y1 - y0
-    return (sample(table, grid, point, x, y0), sample(table, grid, point, x, y0 + y * 1 / (SAMPLES - 1.0)),
-            sample(table, grid, point, x, y0 + y * 2 / (SAMPLES - 1.0)),
-            sample(table, grid, point, x, y0 + y * 3 / (SAMPLES - 1.0)),
-            sample(table, grid, point, x, y0 + y * 4 / (SAMPLES - 1.0)))
+    return (sample(table, grid, point, x, y0), sample(table, grid, point, x, y0 + y * 1 / (START_SAMPLES - 1.0)),
+            sample(table, grid, point, x, y0 + y * 2 / (START_SAMPLES - 1.0)),
+            sample(table, grid, point, x, y0 + y * 3 / (START_SAMPLES - 1.0)),
+            sample(table, grid, point, x, y0 + y * 4 / (START_SAMPLES - 1.0)))
 
 
 @shared

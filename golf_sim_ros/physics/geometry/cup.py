@@ -15,22 +15,22 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
-from ..mechanics.vector import along, dot, length, scale, sub, tangential
+from ..mechanics.vector import add_scaled, dot, length, scale, sub, tangential
 from ..properties.material import Material, Restitution
 from . import surface_protocol, surfaces
-from .plane_patch import ROUNDING, SAME_HEIGHT, meets
+from .plane_patch import PLANE_ROUNDING, SAME_HEIGHT, meets
 from .polygon import Circle
 
 RADIUS = 0.054  # m: Rules of Golf, definition of hole: 108 mm across
 DEPTH = 0.1016  # m: and at least that deep
-SAMPLES = 64  # of the ground's height around the rim
+CUP_SAMPLES = 64  # of the ground's height around the rim
 UNEVEN = 0.005  # m: ground that strays farther from the rim's curve is no place for a hole
-MOST_STEPS = 30  # of Newton's method
-MOST_TURN = 0.3  # rad in one of them
+MOST_CUP_STEPS = 30  # of Newton's method
+MOST_CUP_TURN = 0.3  # rad in one of them
 
 # A plastic liner in soil. Estimates: between turf, 0.5, and a hard plastic plate, 0.8, and well damped;
 # friction as of plastic on plastic.
-CUP = Material('cup', Restitution(0.4), 0.0, 0.3, 0.25, 0.1, 0.002, 0.0, color=(0.9, 0.9, 0.9))
+CUP_MATERIAL = Material('cup', Restitution(0.4), 0.0, 0.3, 0.25, 0.1, 0.002, 0.0, color=(0.9, 0.9, 0.9))
 
 CUPS = np.dtype([
     ('center', 'f8', 2), ('radius', 'f8'), ('rim', 'f8', 5), ('bottom', 'f8'), ('hollow', 'f8'),
@@ -47,7 +47,7 @@ class Cup(NamedTuple):
     y: float
     rim: tuple
     side: Material
-    material: Material = CUP
+    material: Material = CUP_MATERIAL
     depth: float = DEPTH
     radius: float = RADIUS
 
@@ -68,12 +68,12 @@ def cup_in(ground, x, y, names, material):
     ValueError
         There is no ground all round, or it is too uneven.
     """
-    angles = 2 * pi * np.arange(SAMPLES) / SAMPLES
+    angles = 2 * pi * np.arange(CUP_SAMPLES) / CUP_SAMPLES
     found = [surfaces.look_down(ground, x + RADIUS * cos(a), y + RADIUS * sin(a)) for a in angles]
     if any(part < 0 for _, part, _ in found):
         raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round')
     z = np.array([height for height, _, _ in found])
-    waves = np.array([np.ones(SAMPLES), np.cos(angles), np.sin(angles),
+    waves = np.array([np.ones(CUP_SAMPLES), np.cos(angles), np.sin(angles),
                       np.cos(2 * angles), np.sin(2 * angles)])
     rim = np.linalg.lstsq(waves.T, z, rcond=None)[0]
     if np.abs(rim @ waves - z).max() > UNEVEN:
@@ -161,14 +161,14 @@ def first_guess(cup, point):
 def nearest_on_rim(cup, point):
     """Angle of the rim's place nearest to `point`: Newton's method on the distance's square."""
     angle = first_guess(cup, point)
-    for _ in range(MOST_STEPS):
+    for _ in range(MOST_CUP_STEPS):
         place, ahead, bend = rim_at(cup, angle)
         offset = sub(place, point)
         fall = -dot(ahead, offset)
         rise = dot(ahead, ahead) + dot(bend, offset)
         # Where it bends the wrong way, as far downhill as allowed.
-        step = fall / rise if rise > 0.0 else (MOST_TURN if fall > 0.0 else -MOST_TURN)
-        step = min(max(step, -MOST_TURN), MOST_TURN)
+        step = fall / rise if rise > 0.0 else (MOST_CUP_TURN if fall > 0.0 else -MOST_CUP_TURN)
+        step = min(max(step, -MOST_CUP_TURN), MOST_CUP_TURN)
         angle += step
         if abs(step) <= 1e-15:
             break
@@ -229,12 +229,12 @@ def _turn(kind, part, point, velocity):
     away, c, s = from_axis(cup, point)
     if point[2] <= rim_height(cup, c, s):
         around = (-s, c, 0.0)
-        return scale(-dot(velocity, around) / max(away, ROUNDING), around)
+        return scale(-dot(velocity, around) / max(away, PLANE_ROUNDING), around)
     place, ahead, bend = rim_at(cup, nearest_on_rim(cup, point))
     offset = sub(point, place)
     distance = length(offset)
     rate = dot(ahead, velocity) / (dot(ahead, ahead) - dot(bend, offset))
-    relative = along(velocity, -rate, ahead)
+    relative = add_scaled(velocity, -rate, ahead)
     return scale(1.0 / distance, tangential(relative, scale(1.0 / distance, offset)))
 
 
@@ -257,7 +257,7 @@ def _touchable(kind, part, point):
 def _flat_under(kind, part, point):
     cup = kind.cups[part // 2]
     away, _, _ = from_axis(cup, point)
-    return part % 2 == 1 and away <= cup['radius'] + ROUNDING
+    return part % 2 == 1 and away <= cup['radius'] + PLANE_ROUNDING
 
 
 @surface_protocol.in_plane.register(Cups)
@@ -279,7 +279,7 @@ def _is_ground(kind):
 
 @surface_protocol.sort.register(Cups)
 def _sort(kind, part):
-    return surface_protocol.CUP
+    return surface_protocol.CUP_SORT
 
 
 @surface_protocol.material_of.register(Cups)

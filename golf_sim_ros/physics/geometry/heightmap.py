@@ -22,7 +22,7 @@ from ..mechanics.vector import ZERO, dot, length, scale, sub, tangential, unit
 from ..properties.material import Material
 from . import surface_protocol
 from .bicubic import GRID, bicubic, bounds, cell_at, nodes
-from .closest_point import curvatures, foot, held, pulls
+from .closest_point import curvatures, closest_point, held, pulls
 from .plane_patch import SAME_HEIGHT
 
 WIDE = 10.0  # 1/m: hollows bent less than this hold a ball of 5 cm at one place only, with room to spare
@@ -179,7 +179,7 @@ def place_under(kind, grid, part, point):
     elif part < grid['number']:
         cell = kind.cells[bounds_of(kind, part)]
         bend = cell[3] * max(point[2] - cell[0], cell[1] - point[2])
-    return foot(kind.nodes, grid, rectangle(kind, grid, part), bend, point)
+    return closest_point(kind.nodes, grid, rectangle(kind, grid, part), bend, point)
 
 
 @kernel
@@ -215,7 +215,7 @@ def _nearest(kind, part, point):
     x, y, at = place_under(kind, grid, part, local)
     offset = (local[0] - x, local[1] - y, local[2] - at[0])
     upright = unit((-at[1], -at[2], 1.0), ZERO)
-    sign = -1.0 if is_below(kind, grid, part, local, offset, (x, y), at) else 1.0
+    sign = -1.0 if is_below_map(kind, grid, part, local, offset, (x, y), at) else 1.0
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < x < x1 and y0 < y < y1:  # the slopes tell the normal better than a short offset
         away = dot(offset, upright)
@@ -225,21 +225,21 @@ def _nearest(kind, part, point):
 
 
 @kernel
-def is_over(grid, local):
+def is_over_map(grid, local):
     """Whether a point is within the map's outline, seen from above."""
     size = grid['spacing']
     return 0.0 <= local[0] <= grid['nx'] * size and 0.0 <= local[1] <= grid['ny'] * size
 
 
 @shared
-def is_below(kind, grid, part, local, offset, place, at):
+def is_below_map(kind, grid, part, local, offset, place, at):
     """Whether a point is under `part`, a cell or a map, whose nearest `place` is `offset` away.
 
     Past a wall a point is outside, though it be nearest to the back of ground that falls away from there.
     """
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < place[0] < x1 and y0 < place[1] < y1:
-        return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over(grid, local)
+        return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
     return (x0 < local[0] < x1 and y0 < local[1] < y1
             and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0])
 
@@ -283,7 +283,7 @@ def _turn(kind, part, point, velocity):
         dx = (c * p - b * q) / (a * c - b * b)
         dy = (a * q - b * p) / (a * c - b * b)
     rate = sub(velocity, (dx, dy, at[1] * dx + at[2] * dy))
-    sign = -1.0 if is_below(kind, grid, part, local, offset, (x, y), at) else 1.0
+    sign = -1.0 if is_below_map(kind, grid, part, local, offset, (x, y), at) else 1.0
     return scale(sign, turned(rate, offset))
 
 
@@ -351,7 +351,7 @@ def _top(kind, x, y):
     for i in range(len(kind.grids)):
         grid = kind.grids[i]
         u, v, _ = local = from_origin(grid, (x, y, 0.0))
-        if is_over(grid, local):
+        if is_over_map(grid, local):
             z = bicubic(kind.nodes, grid, u, v)[0]
             if z >= best - SAME_HEIGHT:
                 best = max(best, z)

@@ -10,15 +10,15 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
-from ..mechanics.vector import ZERO, along, cross, dot, length, scale, sub, tangential, unit, vector
+from ..mechanics.vector import ZERO, add_scaled, cross, dot, length, scale, sub, tangential, unit, load
 from ..properties.material import Material
 from . import surface_protocol
-from .bvh import NODE, hierarchy
-from .plane_patch import FLUSH, ROUNDING, SAME_HEIGHT, meets
+from .bvh import BVH_NODE, hierarchy
+from .plane_patch import FLUSH, PLANE_ROUNDING, SAME_HEIGHT, meets
 
-AHEAD = 1e-7  # m: which way a ball on a border turns is decided this far ahead
+MESH_AHEAD = 1e-7  # m: which way a ball on a border turns is decided this far ahead
 NARROW = 1e-9  # m: a triangle that is no wider has no plane that could be trusted
-FACE, CORNER = -1, 3  # where a place on a triangle is, if not on side 0, 1 or 2
+TRIANGLE_FACE, CORNER = -1, 3  # where a place on a triangle is, if not on side 0, 1 or 2
 
 TRIANGLE = np.dtype([('corners', 'f8', (3, 3)), ('normal', 'f8', 3), ('material', 'i8'),
                      ('one_sided', 'i8'), ('leaf', 'i8')], align=True)
@@ -51,7 +51,7 @@ def meshes(shapes, material_number):
     ValueError
         A face names a vertex that there is not, is not finite, or is no wider than a nanometre.
     """
-    triangles, nodes = [np.zeros(0, TRIANGLE)], [np.zeros(0, NODE)]
+    triangles, nodes = [np.zeros(0, TRIANGLE)], [np.zeros(0, BVH_NODE)]
     before = above = 0
     for shape in shapes:
         corners = np.asarray(shape.vertices, float).reshape(-1, 3)[checked(shape)]
@@ -148,47 +148,47 @@ def is_near(triangle, low, high):
 @kernel
 def offset_from(triangle, point):
     """Vector to `point` from the nearest place of the triangle, and where that is: FACE, a side, CORNER."""
-    normal = vector(triangle['normal'])
-    where = FACE
+    normal = load(triangle['normal'])
+    where = TRIANGLE_FACE
     best = ZERO
     least = inf
     for i in range(3):
-        start = vector(triangle['corners'][i])
-        side = sub(vector(triangle['corners'][(i + 1) % 3]), start)
+        start = load(triangle['corners'][i])
+        side = sub(load(triangle['corners'][(i + 1) % 3]), start)
         d = sub(point, start)
         if dot(cross(normal, side), d) >= 0.0:
             continue
         t = min(max(dot(d, side) / dot(side, side), 0.0), 1.0)
-        offset = along(d, -t, side)
+        offset = add_scaled(d, -t, side)
         size = dot(offset, offset)
         if size < least:
             least = size
             best = offset
             where = i if 0.0 < t < 1.0 else CORNER
-    if where == FACE:
-        best = scale(height(triangle, point), normal)
+    if where == TRIANGLE_FACE:
+        best = scale(height_over(triangle, point), normal)
     return best, where
 
 
 @kernel
-def height(triangle, point):
+def height_over(triangle, point):
     """Height [m] of `point` over the triangle's plane."""
-    return dot(sub(point, vector(triangle['corners'][1])), vector(triangle['normal']))
+    return dot(sub(point, load(triangle['corners'][1])), load(triangle['normal']))
 
 
 @kernel
-def beside(triangle, point, offset):
+def beside_triangle(triangle, point, offset):
     """How far [m] from the triangle the foot of `point` in its plane lies."""
-    return length(tangential(offset, vector(triangle['normal'])))
+    return length(tangential(offset, load(triangle['normal'])))
 
 
 @surface_protocol.nearest.register(Meshes)
 def _nearest(kind, part, point):
     triangle = kind.triangles[part]
-    normal = vector(triangle['normal'])
+    normal = load(triangle['normal'])
     offset, where = offset_from(triangle, point)
-    if where == FACE or beside(triangle, point, offset) <= FLUSH:
-        h = height(triangle, point)
+    if where == TRIANGLE_FACE or beside_triangle(triangle, point, offset) <= FLUSH:
+        h = height_over(triangle, point)
         return abs(h), normal if h >= 0.0 else scale(-1.0, normal)
     return length(offset), unit(offset, normal)
 
@@ -199,41 +199,41 @@ def _turn(kind, part, point, velocity):
     if speed == 0.0:
         return ZERO
     triangle = kind.triangles[part]
-    _, where = offset_from(triangle, along(point, AHEAD / speed, velocity))
-    if where == FACE:
+    _, where = offset_from(triangle, add_scaled(point, MESH_AHEAD / speed, velocity))
+    if where == TRIANGLE_FACE:
         return ZERO
     distance, out = surface_protocol.nearest(kind, part, point)
     if where != CORNER:
-        side = sub(vector(triangle['corners'][(where + 1) % 3]), vector(triangle['corners'][where]))
+        side = sub(load(triangle['corners'][(where + 1) % 3]), load(triangle['corners'][where]))
         velocity = tangential(velocity, unit(side, ZERO))
     return scale(1.0 / distance, tangential(velocity, out))
 
 
 @surface_protocol.touchable.register(Meshes)
 def _touchable(kind, part, point):
-    return kind.triangles[part]['one_sided'] == 0 or height(kind.triangles[part], point) >= 0.0
+    return kind.triangles[part]['one_sided'] == 0 or height_over(kind.triangles[part], point) >= 0.0
 
 
 @surface_protocol.flat_under.register(Meshes)
 def _flat_under(kind, part, point):
-    return is_over(kind.triangles[part], point)
+    return is_over_triangle(kind.triangles[part], point)
 
 
 @kernel
-def is_over(triangle, point):
+def is_over_triangle(triangle, point):
     """Whether the foot of `point` in the triangle's plane lies in the triangle."""
     offset, where = offset_from(triangle, point)
-    return where == FACE or beside(triangle, point, offset) <= ROUNDING
+    return where == TRIANGLE_FACE or beside_triangle(triangle, point, offset) <= PLANE_ROUNDING
 
 
 @surface_protocol.in_plane.register(Meshes)
 def _in_plane(kind, part, point, normal):
     triangle = kind.triangles[part]
-    if (abs(dot(vector(triangle['normal']), normal)) > 1.0 - 1e-12
-            and abs(height(triangle, point)) <= SAME_HEIGHT):
+    if (abs(dot(load(triangle['normal']), normal)) > 1.0 - 1e-12
+            and abs(height_over(triangle, point)) <= SAME_HEIGHT):
         return True
     for i in range(3):  # a sliver's normal may be off, and the sliver is not
-        if abs(dot(sub(vector(triangle['corners'][i]), point), normal)) > ROUNDING:
+        if abs(dot(sub(load(triangle['corners'][i]), point), normal)) > PLANE_ROUNDING:
             return False
     return True
 
@@ -246,9 +246,9 @@ def _limits(kind):
 @surface_protocol.limit.register(Meshes)
 def _limit(kind, part, i):
     triangle = kind.triangles[part]
-    start = vector(triangle['corners'][i])
-    side = sub(vector(triangle['corners'][(i + 1) % 3]), start)
-    return start, unit(cross(vector(triangle['normal']), side), ZERO)
+    start = load(triangle['corners'][i])
+    side = sub(load(triangle['corners'][(i + 1) % 3]), start)
+    return start, unit(cross(load(triangle['normal']), side), ZERO)
 
 
 @surface_protocol.material_of.register(Meshes)
@@ -260,8 +260,8 @@ def _material_of(kind, part):
 def _top(kind, x, y):
     best = -1e300
     who = -1
-    low = (x - ROUNDING, y - ROUNDING, -inf)
-    high = (x + ROUNDING, y + ROUNDING, inf)
+    low = (x - PLANE_ROUNDING, y - PLANE_ROUNDING, -inf)
+    high = (x + PLANE_ROUNDING, y + PLANE_ROUNDING, inf)
     part = surface_protocol.next_part(kind, 0, low, high)
     while part < len(kind.triangles):
         triangle = kind.triangles[part]
@@ -269,7 +269,7 @@ def _top(kind, x, y):
         if abs(n[2]) > 1e-9:
             corner = triangle['corners'][1]
             z = corner[2] - (n[0] * (x - corner[0]) + n[1] * (y - corner[1])) / n[2]
-            if z >= best - SAME_HEIGHT and is_over(triangle, (x, y, z)):
+            if z >= best - SAME_HEIGHT and is_over_triangle(triangle, (x, y, z)):
                 best = max(best, z)
                 who = part
         part = surface_protocol.next_part(kind, part + 1, low, high)

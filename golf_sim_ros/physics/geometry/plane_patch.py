@@ -20,15 +20,15 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
-from ..mechanics.vector import ZERO, add, along, dot, length, scale, sub, tangential, unit, vector
+from ..mechanics.vector import ZERO, add, add_scaled, dot, length, scale, sub, tangential, unit, load
 from . import surface_protocol
 from .patch import Patch
 from .plane import Plane
 from .polygon import Polygons, inside, polygons, sides
 
 SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as equally high
-ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
-FLUSH = 2.0 * ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
+PLANE_ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
+FLUSH = 2.0 * PLANE_ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
 AHEAD = 2e-7  # m: a ball on a border turns as it will past it, or it would leave an edge too late
 
 FACE = np.dtype([
@@ -141,40 +141,40 @@ def clamped(x, most):
 @kernel
 def offset_from_face(face, point):
     """Vector to `point` from the nearest place of a face, and the height over its plane."""
-    d = sub(point, vector(face['center']))
-    normal = vector(face['normal'])
-    a = dot(d, vector(face['along']))
-    b = dot(d, vector(face['across']))
+    d = sub(point, load(face['center']))
+    normal = load(face['normal'])
+    a = dot(d, load(face['along']))
+    b = dot(d, load(face['across']))
     h = dot(d, normal)
     offset = scale(h, normal)
-    offset = along(offset, a - clamped(a, face['half_length']), vector(face['along']))
-    offset = along(offset, b - clamped(b, face['half_width']), vector(face['across']))
+    offset = add_scaled(offset, a - clamped(a, face['half_length']), load(face['along']))
+    offset = add_scaled(offset, b - clamped(b, face['half_width']), load(face['across']))
     return offset, h
 
 
 @kernel
 def offset_from_edge(edge, point):
     """Vector to `point` from the nearest place of a cut's edge, wall included."""
-    d = sub(point, vector(edge['start']))
-    direction = vector(edge['direction'])
-    normal = vector(edge['normal'])
+    d = sub(point, load(edge['start']))
+    direction = load(edge['direction'])
+    normal = load(edge['normal'])
     t = min(max(dot(d, direction), 0.0), edge['length'])
     down = max(min(dot(d, normal), 0.0), -edge['depth'])
-    return along(along(d, -t, direction), -down, normal)
+    return add_scaled(add_scaled(d, -t, direction), -down, normal)
 
 
 @surface_protocol.nearest.register(Flats)
 def _nearest(kind, part, point):
     if part < len(kind.faces):
         face = kind.faces[part]
-        normal = vector(face['normal'])
+        normal = load(face['normal'])
         if face['solid']:
-            return dot(sub(point, vector(face['center'])), normal), normal
+            return dot(sub(point, load(face['center'])), normal), normal
         offset, _ = offset_from_face(face, point)
         return length(offset), unit(offset, normal)
     edge = kind.edges[part - len(kind.faces)]
     offset = offset_from_edge(edge, point)
-    return length(offset), unit(offset, vector(edge['normal']))
+    return length(offset), unit(offset, load(edge['normal']))
 
 
 @surface_protocol.turn.register(Flats)
@@ -182,27 +182,27 @@ def _turn(kind, part, point, velocity):
     speed = length(velocity)
     if speed == 0.0:
         return ZERO
-    ahead = along(point, AHEAD / speed, velocity)
+    ahead = add_scaled(point, AHEAD / speed, velocity)
     if part < len(kind.faces):
         face = kind.faces[part]
         if face['solid']:
             return ZERO
         offset, _ = offset_from_face(face, point)
-        d = sub(ahead, vector(face['center']))
-        rate = in_direction(velocity, vector(face['normal']))
-        if abs(dot(d, vector(face['along']))) > face['half_length']:
-            rate = add(rate, in_direction(velocity, vector(face['along'])))
-        if abs(dot(d, vector(face['across']))) > face['half_width']:
-            rate = add(rate, in_direction(velocity, vector(face['across'])))
+        d = sub(ahead, load(face['center']))
+        rate = in_direction(velocity, load(face['normal']))
+        if abs(dot(d, load(face['along']))) > face['half_length']:
+            rate = add(rate, in_direction(velocity, load(face['along'])))
+        if abs(dot(d, load(face['across']))) > face['half_width']:
+            rate = add(rate, in_direction(velocity, load(face['across'])))
     else:
         edge = kind.edges[part - len(kind.faces)]
         offset = offset_from_edge(edge, point)
-        d = sub(ahead, vector(edge['start']))
+        d = sub(ahead, load(edge['start']))
         rate = velocity
-        if 0.0 < dot(d, vector(edge['direction'])) < edge['length']:
-            rate = sub(rate, in_direction(velocity, vector(edge['direction'])))
-        if -edge['depth'] < dot(d, vector(edge['normal'])) < 0.0:
-            rate = sub(rate, in_direction(velocity, vector(edge['normal'])))
+        if 0.0 < dot(d, load(edge['direction'])) < edge['length']:
+            rate = sub(rate, in_direction(velocity, load(edge['direction'])))
+        if -edge['depth'] < dot(d, load(edge['normal'])) < 0.0:
+            rate = sub(rate, in_direction(velocity, load(edge['normal'])))
     away = length(offset)
     return scale(1.0 / away, tangential(rate, scale(1.0 / away, offset))) if away > 0.0 else ZERO
 
@@ -246,9 +246,9 @@ def _flat_under(kind, part, point):
     if part >= len(kind.faces):
         return False
     face = kind.faces[part]
-    d = sub(point, vector(face['center']))
-    return (abs(dot(d, vector(face['along']))) <= face['half_length'] + ROUNDING
-            and abs(dot(d, vector(face['across']))) <= face['half_width'] + ROUNDING)
+    d = sub(point, load(face['center']))
+    return (abs(dot(d, load(face['along']))) <= face['half_length'] + PLANE_ROUNDING
+            and abs(dot(d, load(face['across']))) <= face['half_width'] + PLANE_ROUNDING)
 
 
 @surface_protocol.is_plane.register(Flats)
@@ -259,11 +259,11 @@ def _is_plane(kind, part):
 @surface_protocol.in_plane.register(Flats)
 def _in_plane(kind, part, point, normal):
     if part < len(kind.faces):
-        place = vector(kind.faces[part]['center'])
-        own = vector(kind.faces[part]['normal'])
+        place = load(kind.faces[part]['center'])
+        own = load(kind.faces[part]['normal'])
     else:
-        place = vector(kind.edges[part - len(kind.faces)]['start'])
-        own = vector(kind.edges[part - len(kind.faces)]['normal'])
+        place = load(kind.edges[part - len(kind.faces)]['start'])
+        own = load(kind.edges[part - len(kind.faces)]['normal'])
     return (abs(dot(own, normal)) > 1.0 - 1e-12
             and abs(dot(sub(point, place), own)) <= SAME_HEIGHT)
 
@@ -296,9 +296,9 @@ def _top(kind, x, y):
 
 @kernel
 def _covers(flat, face, place):
-    d = sub(place, vector(face['center']))
-    return (abs(dot(d, vector(face['along']))) <= face['half_length'] + ROUNDING
-            and abs(dot(d, vector(face['across']))) <= face['half_width'] + ROUNDING
+    d = sub(place, load(face['center']))
+    return (abs(dot(d, load(face['along']))) <= face['half_length'] + PLANE_ROUNDING
+            and abs(dot(d, load(face['across']))) <= face['half_width'] + PLANE_ROUNDING
             and not in_a_cut(flat, face, place[0], place[1]))
 
 

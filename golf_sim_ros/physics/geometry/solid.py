@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
-from ..mechanics.vector import along, dot, length, scale, sub, tangential, unit, vector
+from ..mechanics.vector import add_scaled, dot, length, scale, sub, tangential, unit, load
 from ..properties.material import Material, Restitution
 from . import surface_protocol
-from .plane_patch import ROUNDING, SAME_HEIGHT, meets
+from .plane_patch import PLANE_ROUNDING, SAME_HEIGHT, meets
 from .polygon import Circle
 
 SOLID = np.dtype([('center', 'f8', 3), ('radius', 'f8'), ('height', 'f8'), ('is_sphere', 'i8'),
@@ -20,7 +20,7 @@ FLAGSTICK_HEIGHT = 2.13  # m: 7 ft, as the USGA recommends
 
 # A stick of glass fibre that gives way. Estimates: it takes most of the approach, and is smooth; livelier
 # or rougher, 0.35 and 0.2, it would turn back putts of 1.5 m/s that the bare hole takes.
-FLAGSTICK = Material('flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.05, 0.002, 0.0, color=(1.0, 1.0, 1.0))
+FLAGSTICK_MATERIAL = Material('flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.05, 0.002, 0.0, color=(1.0, 1.0, 1.0))
 
 
 class Cylinder(NamedTuple):
@@ -46,7 +46,7 @@ class Flagstick(NamedTuple):
     base: tuple
     radius: float = FLAGSTICK_RADIUS
     height: float = FLAGSTICK_HEIGHT
-    material: Material = FLAGSTICK
+    material: Material = FLAGSTICK_MATERIAL
 
 
 class Solids(NamedTuple):
@@ -61,8 +61,8 @@ def build(shapes, material_number):
     for shape in shapes:
         is_sphere = isinstance(shape, Sphere)
         center = shape.center if is_sphere else shape.base
-        low, high = box(shape)
-        sort = surface_protocol.FLAGSTICK if isinstance(shape, Flagstick) else surface_protocol.OBSTACLE
+        low, high = solid_box(shape)
+        sort = surface_protocol.FLAGSTICK_SORT if isinstance(shape, Flagstick) else surface_protocol.OBSTACLE_SORT
         rows.append((center, shape.radius, 0.0 if is_sphere else shape.height, is_sphere, sort,
                      material_number[shape.material], low, high))
     return Solids(np.array(rows, SOLID))
@@ -74,7 +74,7 @@ def without(ground):
                                        for kind in ground.kinds))
 
 
-def box(shape):
+def solid_box(shape):
     """Least and greatest x, y, z of a solid."""
     x, y, z = shape.center if isinstance(shape, Sphere) else shape.base
     r = shape.radius
@@ -89,7 +89,7 @@ def plan(shape):
 
 def heights(shape):
     """Lowest and highest of a solid."""
-    low, high = box(shape)
+    low, high = solid_box(shape)
     return low[2], high[2]
 
 
@@ -125,14 +125,14 @@ def _next_part(kind, part, low, high):
 def _nearest(kind, part, point):
     solid = kind.solids[part]
     if solid['is_sphere']:
-        offset = sub(point, vector(solid['center']))
+        offset = sub(point, load(solid['center']))
         return length(offset) - solid['radius'], unit(offset, (0.0, 0.0, 1.0))
     away, out = from_axis(solid, point)
     beyond = away - solid['radius']
     over, upright = over_ends(solid, point)
     if beyond > 0.0 and over > 0.0:
         distance = sqrt(beyond * beyond + over * over)
-        return distance, along(scale(beyond / distance, out), over / distance, upright)
+        return distance, add_scaled(scale(beyond / distance, out), over / distance, upright)
     if beyond > over:
         return beyond, out
     return over, upright
@@ -142,22 +142,22 @@ def _nearest(kind, part, point):
 def _turn(kind, part, point, velocity):
     solid = kind.solids[part]
     if solid['is_sphere']:
-        offset = sub(point, vector(solid['center']))
-        distance = max(length(offset), ROUNDING)
+        offset = sub(point, load(solid['center']))
+        distance = max(length(offset), PLANE_ROUNDING)
         return scale(1.0 / distance, tangential(velocity, scale(1.0 / distance, offset)))
     away, out = from_axis(solid, point)
     over, upright = over_ends(solid, point)
     beyond = away - solid['radius']
-    if beyond < -ROUNDING:  # beside an end
+    if beyond < -PLANE_ROUNDING:  # beside an end
         return 0.0, 0.0, 0.0
     around = (-out[1], out[0], 0.0)
     circling = dot(velocity, around) / away
-    if over < -ROUNDING:
+    if over < -PLANE_ROUNDING:
         return scale(circling, around)
     # Around the rim, whose nearest place goes along with the motion about the axis.
-    relative = along(velocity, -circling * solid['radius'], around)
-    normal = along(scale(max(beyond, 0.0), out), max(over, 0.0), upright)
-    distance = max(length(normal), ROUNDING)
+    relative = add_scaled(velocity, -circling * solid['radius'], around)
+    normal = add_scaled(scale(max(beyond, 0.0), out), max(over, 0.0), upright)
+    distance = max(length(normal), PLANE_ROUNDING)
     return scale(1.0 / distance, tangential(relative, scale(1.0 / distance, normal)))
 
 
@@ -166,7 +166,7 @@ def _flat_under(kind, part, point):
     solid = kind.solids[part]
     away, _ = from_axis(solid, point)
     over, _ = over_ends(solid, point)
-    return not solid['is_sphere'] and over > 0.0 and away <= solid['radius'] + ROUNDING
+    return not solid['is_sphere'] and over > 0.0 and away <= solid['radius'] + PLANE_ROUNDING
 
 
 @surface_protocol.in_plane.register(Solids)

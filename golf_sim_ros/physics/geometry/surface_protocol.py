@@ -6,10 +6,10 @@ that is what lets contacts be found without ever stepping over one. A new kind r
 each of these laws that it has a word in.
 """
 from ..jit import generic
-from ..mechanics.vector import ZERO, along, length, scale, sub
+from ..mechanics.vector import ZERO, add_scaled, length, scale, sub
 
 NOTHING = (-1e300, -1)
-GROUND, CUP, FLAGSTICK, OBSTACLE = range(4)
+GROUND_SORT, CUP_SORT, FLAGSTICK_SORT, OBSTACLE_SORT = range(4)
 
 
 @generic
@@ -43,8 +43,8 @@ def turn(kind, part, point, velocity):
     if speed == 0.0:
         return ZERO
     dt = 1e-6 / speed
-    _, before = nearest(kind, part, along(point, -dt, velocity))
-    _, after = nearest(kind, part, along(point, dt, velocity))
+    _, before = nearest(kind, part, add_scaled(point, -dt, velocity))
+    _, after = nearest(kind, part, add_scaled(point, dt, velocity))
     return scale(0.5 / dt, sub(after, before))
 
 
@@ -123,7 +123,7 @@ def is_ground(kind):
 @generic
 def sort(kind, part):
     """Whether `part` is GROUND, CUP, FLAGSTICK or OBSTACLE: what an impact with it is told as."""
-    return GROUND
+    return GROUND_SORT
 
 
 @generic

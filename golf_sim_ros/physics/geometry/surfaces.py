@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import borrowed, entry, kernel, literal_unroll, shared
-from ..mechanics.vector import ZERO, along, dot, scale
+from ..mechanics.vector import ZERO, add_scaled, dot, scale
 from ..state.ball import NO_PART
 from . import surface_protocol
 from .plane_patch import SAME_HEIGHT
@@ -74,7 +74,7 @@ is_plane = of_its_kind(surface_protocol.is_plane, False)
 in_cut = of_its_kind(surface_protocol.in_cut, False)
 limit = of_its_kind(surface_protocol.limit, (ZERO, ZERO))
 _touchable = of_its_kind(surface_protocol.touchable, False)
-sort = of_its_kind(surface_protocol.sort, surface_protocol.GROUND)
+sort = of_its_kind(surface_protocol.sort, surface_protocol.GROUND_SORT)
 _own_material = of_its_kind(surface_protocol.material_of, 0)
 
 
@@ -157,7 +157,7 @@ def touchable(ground, part, point):
     """Whether the surface exists where `part` is nearest to `point`, seen from there."""
     if len(ground.hole) > 0 and is_ground(ground, part):
         distance, normal = nearest(ground, part, point)
-        if in_hole(ground.hole, along(point, -distance, normal)):
+        if in_hole(ground.hole, add_scaled(point, -distance, normal)):
             return False
     return _touchable(ground, part, point)
 
@@ -216,7 +216,7 @@ def look_down(ground, x, y):
 def around(point, reach):
     """Box of half width `reach` around `point`."""
     box = (reach, reach, reach)
-    return along(point, -1.0, box), along(point, 1.0, box)
+    return add_scaled(point, -1.0, box), add_scaled(point, 1.0, box)
 
 
 @kernel
@@ -235,7 +235,7 @@ def out_of_bounds(ground, x, y):
 
 
 @shared
-def alone(ground, part, point, radius):
+def is_alone(ground, part, point, radius):
     """Whether a ball at `point` that touches `part` can touch no other ground."""
     low, high = around(point, radius + SAME_HEIGHT)
     return next_part(ground, 0, low, high) == part and next_part(ground, part + 1, low, high) == NO_PART
@@ -252,7 +252,7 @@ def touched(ground, point, radius, ahead):
     best_flat = False
     best_normal = (0.0, 0.0, 1.0)
     low, high = around(point, radius + SAME_HEIGHT)
-    next_point = along(point, LOOK_AHEAD, ahead)
+    next_point = add_scaled(point, LOOK_AHEAD, ahead)
     part = next_part(ground, 0, low, high)
     while part >= 0:
         distance, normal = nearest(ground, part, point)
@@ -273,7 +273,7 @@ def under(ground, part, point, ahead):
 
     On a border a flat part that goes on ahead counts as flat: a corner that is passed by is no edge.
     """
-    next_point = along(point, LOOK_AHEAD, ahead)
+    next_point = add_scaled(point, LOOK_AHEAD, ahead)
     if flat_under(ground, part, next_point):
         distance, normal = nearest(ground, part, next_point)
         return distance - LOOK_AHEAD * dot(ahead, normal), normal
@@ -327,4 +327,4 @@ def distance_in_plan(border, x, y):
 def slope(pull, normal):
     """How hard `pull` presses on a surface of `normal`, and its part along the surface."""
     press = -dot(pull, normal)
-    return press, along(pull, press, normal)
+    return press, add_scaled(pull, press, normal)

@@ -26,7 +26,7 @@ LEAST = 1e-9  # s
 MOST_GROWTH = 4.0  # from one step to the next
 # Hops of less than NEAR times the tolerance's fourth root are flown by order 4, with two stages less. Its
 # error would allow of twice that, but a ball that skids over rough makes hundreds of times as much of it.
-NEAR = 0.9  # s
+STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
 ON_GROUND = 0.2  # of the tolerance: along the ground, where a ball must be slow to stop, errors count more,
 MOST_ON_GROUND = 1e-5  # m: and coarser steps cost as much, for other things end them
@@ -42,7 +42,7 @@ class DormandPrince(NamedTuple):
     longest: float = 2.0
 
 
-@runge_kutta.table.register(DormandPrince)
+@runge_kutta.tableau.register(DormandPrince)
 def _table(method, brief):
     return rk4.TABLE if brief else TABLE
 
@@ -69,7 +69,7 @@ def _first_step(method, speed, hop, most):
     part = short / far
     if part * part * part * part * part > most:
         return min(far * most ** 0.2, method.longest), False
-    part = short / NEAR
+    part = short / STEP_SAFETY
     return min(short, method.longest), part * part * part * part <= most
 
 

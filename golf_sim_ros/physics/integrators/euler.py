@@ -2,9 +2,9 @@
 """Semi-implicit Euler: what most game engines do. A baseline, of order 1."""
 from typing import NamedTuple
 
-from ..mechanics.vector import along, put, scale, vector
-from ..state.ball import STEP
-from ..trajectory.segment import lay
+from ..mechanics.vector import add_scaled, store, scale, load
+from ..state.ball import STEP_END
+from ..trajectory.segment import fit_segment
 from . import runge_kutta
 
 
@@ -20,16 +20,16 @@ def _step(method, model, ball):
     runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
     h = runge_kutta.longest(model, ball, h)
     rates = ball['stages'][0]
-    force = vector(rates[3:6])
-    torque = vector(rates[6:9])
-    v1 = along(vector(ball['velocity']), h, force)
+    force = load(rates[3:6])
+    torque = load(rates[6:9])
+    v1 = add_scaled(load(ball['velocity']), h, force)
     ball['span'] = h
     ball['step'] = method.length
-    put(ball['origin'], vector(ball['position']))
-    put(ball['twist'][3], along(vector(ball['spin']), h, torque))
+    store(ball['origin'], load(ball['position']))
+    store(ball['twist'][3], add_scaled(load(ball['spin']), h, torque))
     # A straight line at the new velocity, as such an engine moves the ball.
-    lay(ball, scale(h, v1), (v1, v1), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), (torque, torque))
-    ball['ending'] = STEP
+    fit_segment(ball, scale(h, v1), (v1, v1), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), (torque, torque))
+    ball['ending'] = STEP_END
 
 
 METHOD = SemiImplicitEuler

@@ -20,7 +20,7 @@ class RungeKutta4(NamedTuple):
     length: float
 
 
-@runge_kutta.table.register(RungeKutta4)
+@runge_kutta.tableau.register(RungeKutta4)
 def _table(method, brief):
     return TABLE
 

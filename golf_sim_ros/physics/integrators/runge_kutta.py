@@ -4,12 +4,12 @@ from math import inf, sqrt
 
 import numpy as np
 
-from ..effects import longest_step, pull, wind_at
+from ..effects import longest_step, gravity_at, wind_at
 from ..jit import generic, kernel
-from ..mechanics.vector import along, dot, length, put, sub, vector
-from ..state.ball import FLIGHT, STEP
-from ..trajectory.equations_of_motion import STILL, rates
-from ..trajectory.segment import lay
+from ..mechanics.vector import add_scaled, dot, length, store, sub, load
+from ..state.ball import FLIGHT, STEP_END
+from ..trajectory.equations_of_motion import LEAST_SPEED, rates
+from ..trajectory.segment import fit_segment
 
 # What a wrong velocity or spin is worth in metres: it goes on for about a second, and 100 rad/s
 # bend a drive by about a metre in that time.
@@ -22,7 +22,7 @@ NO_CHANGE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @generic
-def table(method, brief):
+def tableau(method, brief):
     """Butcher's table of `method`: a row a stage; the last row is the solution's weights.
 
     So the last stage holds the rates at the step's end, which the next step starts from. Of a `brief` step
@@ -47,7 +47,7 @@ def allowed(method, ball):
 def first_step(method, speed, hop, most):
     """Length [s] of the first step at `speed` through the air, of a flight of about `hop` seconds.
 
-    It may err by `most` [m]. And whether it is brief: see `table`.
+    It may err by `most` [m]. And whether it is brief: see `tableau`.
     """
     return 0.01, False
 
@@ -70,9 +70,9 @@ def stage(model, ball, i, state):
     x, y, z, u, v, w, p, q, r = state
     force, torque = rates(model, ball, (x, y, z), (u, v, w), (p, q, r))
     row = ball['stages'][i]
-    put(row[0:3], (u, v, w))
-    put(row[3:6], force)
-    put(row[6:9], torque)
+    store(row[0:3], (u, v, w))
+    store(row[3:6], force)
+    store(row[6:9], torque)
     ball['evaluations'] += 1
 
 
@@ -130,24 +130,24 @@ def longest(model, ball, wanted):
     """Longest step [s], `wanted` at most, that can't overlook any effect. Reads the first stage."""
     if ball['phase'] != FLIGHT:
         return wanted
-    state = vector(ball['position']), vector(ball['velocity']), vector(ball['spin'])
-    return longest_step(model.effects, model.land.ground, state, vector(ball['stages'][0, 3:6]), wanted)
+    state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
+    return longest_step(model.effects, model.land.ground, state, load(ball['stages'][0, 3:6]), wanted)
 
 
 @kernel
 def airspeed(model, ball):
     """Speed [m/s] of the ball through the air around it."""
-    return length(sub(vector(ball['velocity']),
-                      wind_at(model.effects, model.land.ground, vector(ball['position']))))
+    return length(sub(load(ball['velocity']),
+                      wind_at(model.effects, model.land.ground, load(ball['position']))))
 
 
 @kernel
 def hop(model, ball):
     """About how long [s] a ball that has just left a surface stays off it: as without air."""
-    normal = vector(ball['normal'])
-    pressing = -dot(pull(model.effects, vector(ball['position'])), normal)
-    leaving = dot(vector(ball['velocity']), normal)
-    return 2.0 * leaving / pressing if pressing > 0.0 and leaving > STILL else inf
+    normal = load(ball['normal'])
+    pressing = -dot(gravity_at(model.effects, load(ball['position'])), normal)
+    leaving = dot(load(ball['velocity']), normal)
+    return 2.0 * leaving / pressing if pressing > 0.0 and leaving > LEAST_SPEED else inf
 
 
 @generic
@@ -159,7 +159,7 @@ def step(method, model, ball):
     most = allowed(method, ball)
     if begins:
         h, brief = first_step(method, airspeed(model, ball), hop(model, ball), most)
-    rows = table(method, brief)
+    rows = tableau(method, brief)
     weights = error_weights(method, brief)
     last = len(rows) - 1
     start(model, ball, last)
@@ -180,8 +180,8 @@ def step(method, model, ball):
     final = ball['stages'][last]
     ball['span'] = h
     ball['rated'] = -1.0 if brief else ball['begin'] + h  # another table has its last stage elsewhere
-    put(ball['origin'], vector(ball['position']))
-    put(ball['twist'][3], along(vector(ball['spin']), 1.0, (change[6], change[7], change[8])))
-    lay(ball, (change[0], change[1], change[2]), (vector(first[0:3]), vector(final[0:3])),
-        (vector(first[3:6]), vector(final[3:6])), (vector(first[6:9]), vector(final[6:9])))
-    ball['ending'] = STEP
+    store(ball['origin'], load(ball['position']))
+    store(ball['twist'][3], add_scaled(load(ball['spin']), 1.0, (change[6], change[7], change[8])))
+    fit_segment(ball, (change[0], change[1], change[2]), (load(first[0:3]), load(final[0:3])),
+        (load(first[3:6]), load(final[3:6])), (load(first[6:9]), load(final[6:9])))
+    ball['ending'] = STEP_END

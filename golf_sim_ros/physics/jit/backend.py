@@ -17,7 +17,7 @@ except ImportError as error:  # also a numba that does not work with this numpy
     raise Unavailable(' '.join(str(error).split())) from None
 
 from . import linking, reference
-from .kept import keep
+from .kept import keep_compiled
 
 # That 0 and -0 are one changes results in no more than that, and spares an addition for each silent effect.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
@@ -53,7 +53,7 @@ def declare():
 def new_dispatcher(function, role):
     """What numba makes of `function`, nothing compiled yet."""
     if role == ENTRY:
-        return keep(numba.njit(**OPTIONS)(function), CACHE)
+        return keep_compiled(numba.njit(**OPTIONS)(function), CACHE)
     made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(function)
     return linking.inner(made)
 

@@ -20,7 +20,7 @@ from typing import Callable, NamedTuple
 
 from . import GENERICS, Unavailable, cache
 
-COMPILING, LOADING, READY, FAILED = 'compiling', 'loading', 'ready', 'failed'
+COMPILING, LOADING, READY, BUILD_FAILED = 'compiling', 'loading', 'ready', 'failed'
 ORDINARY = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
 PROGRAM = 'golf_sim_ros.physics.jit.build'
 LOW = 10  # niceness of a child for which nobody waits: a tenth of what others get, but never nothing
@@ -75,9 +75,9 @@ class Build:
             self._compile_and_load()
             self.state = READY
         except Unavailable as error:
-            self.state, self.reason = FAILED, str(error)
+            self.state, self.reason = BUILD_FAILED, str(error)
         except Exception as error:  # whatever a compiler may raise: plain Python goes on
-            self.state, self.reason = FAILED, f'{type(error).__name__}: {" ".join(str(error).split())[:200]}'
+            self.state, self.reason = BUILD_FAILED, f'{type(error).__name__}: {" ".join(str(error).split())[:200]}'
         finally:
             self.ended.set()
 
@@ -91,7 +91,7 @@ class Build:
             if trouble and self._compile(ORDINARY):  # the private parts may be what this numba does not like
                 raise Unavailable(trouble)
         self.state = LOADING
-        run(self.job.parts)
+        run_child(self.job.parts)
 
     def _compile(self, environment):
         """Why a child could not compile, or ''."""
@@ -176,16 +176,16 @@ def main():
     for module in job.modules:
         import_module(module)
     from .progress import telling_progress
-    with telling_progress(sys.stdout, len(job.parts)), alone():
+    with telling_progress(sys.stdout, len(job.parts)), is_alone_in_process():
         for part in job.parts:
             if not is_kept(part.key):  # by another child, for which this one has waited
-                run([part])
+                run_child([part])
                 mark(part.key).touch()
     return 0
 
 
 @contextmanager
-def alone():
+def is_alone_in_process():
     """No other child compiles on this machine as long as this lasts: it may be the same that both need."""
     import fcntl
     with open(cache.folder().path / 'lock', 'w') as file:
@@ -193,7 +193,7 @@ def alone():
         yield
 
 
-def run(parts):
+def run_child(parts):
     """Run `parts`: what they need is compiled then, or loaded."""
     for part in parts:
         part.function(*part.args)

@@ -13,12 +13,12 @@ from pathlib import Path
 from typing import NamedTuple, Optional
 
 NAME = 'golf_sim_ros'
-VARIABLE = 'GOLF_SIM_ROS_CACHE'
+CACHE_VARIABLE = 'GOLF_SIM_ROS_CACHE'
 OTHERS_WRITE = (stat.S_IWGRP | stat.S_IWOTH) * (os.name == 'posix')  # elsewhere these bits mean nothing
 OTHERS_ENTER = stat.S_IXGRP | stat.S_IXOTH
 LINKS = 40          # links of a path that are followed: as many as Linux does
 FALLBACK = '/tmp' if os.name == 'posix' else tempfile.gettempdir()
-ROOM = 1 << 16      # bytes that a folder has to take in to count as writable
+LEAST_SPACE = 1 << 16      # bytes that a folder has to take in to count as writable
 
 
 class Cache(NamedTuple):
@@ -61,8 +61,8 @@ def folder():
     folder for each version of the sources. Otherwise it is the first that can be used of the user's
     cache (XDG_CACHE_HOME, or ``~/.cache``) and a temporary folder of the user's own.
     """
-    if os.environ.get(VARIABLE):
-        return _named(VARIABLE, source_key())
+    if os.environ.get(CACHE_VARIABLE):
+        return _named(CACHE_VARIABLE, source_key())
     if os.environ.get('NUMBA_CACHE_DIR'):
         return _named('NUMBA_CACHE_DIR', '')
     reasons = []
@@ -214,7 +214,7 @@ def _unwritable(path):
     """Why nothing more can be kept in the folder `path`, or ''."""
     try:
         with tempfile.TemporaryFile(dir=path, buffering=0) as file:
-            full = file.write(bytes(ROOM)) < ROOM
+            full = file.write(bytes(LEAST_SPACE)) < LEAST_SPACE
     except OSError as error:
         return f'{path}: {error.strerror or error}'
     return f'{path}: there is no room' if full else ''

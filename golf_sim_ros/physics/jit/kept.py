@@ -57,7 +57,7 @@ def one_at_a_time():
         yield
 
 
-def keep(dispatcher, folder):
+def keep_compiled(dispatcher, folder):
     """`dispatcher` of an entry, which keeps its code in a `cache.Cache` or at least finds it there."""
     if folder.path:
         dispatcher._cache = (_Alone if folder.writable else _ReadOnly)(dispatcher.py_func)

@@ -12,13 +12,13 @@ from math import exp, expm1, inf, log, sqrt
 from typing import NamedTuple
 
 from ..jit import kernel
-from .vector import add, along, cross, dot, length, scale, unit
+from .vector import add, add_scaled, cross, dot, length, scale, unit
 
 
 MOST_EXPONENT = 690.0  # of exp in double precision
-NEVER = 1e300
+UNREACHED = 1e300
 MOST_ROUNDS = 200
-FAR = 4.0  # times too long: of a parameter from which Newton's method is slow
+FAR_TOO_LONG = 4.0  # times too long: of a parameter from which Newton's method is slow
 EXACT = 1e-9  # of the parameter: a correction after which only rounding is left
 
 
@@ -34,7 +34,7 @@ class Braked(NamedTuple):
 
 
 @kernel
-def braked(u, pull, brake, normal):
+def decelerated(u, pull, brake, normal):
     """`Braked` motion from velocity `u` [m/s] under `pull` [m/s^2] against `brake` [m/s^2].
 
     `u` and `pull` lie in the plane of `normal`. At rest it heads down the slope.
@@ -64,7 +64,7 @@ def _sum(weight, rate, q):
     if rate == 0.0:
         return weight * q
     if rate * q < -MOST_EXPONENT:
-        return NEVER
+        return UNREACHED
     return -weight * expm1(-rate * q) / rate
 
 
@@ -74,7 +74,7 @@ def _shrunk(weight, rate, q):
     if weight == 0.0 or (q == inf and rate > 0.0):
         return 0.0
     if rate * q < -MOST_EXPONENT:
-        return NEVER
+        return UNREACHED
     return weight * exp(-rate * q)
 
 
@@ -121,11 +121,11 @@ def rate(motion, velocity):
     speed = length(velocity)
     pull = scale(motion.slope, motion.down)
     if speed > 0.0:
-        return along(pull, -motion.brake / speed, velocity)
+        return add_scaled(pull, -motion.brake / speed, velocity)
     if starts_at_rest(motion):
         return scale(max(motion.slope - motion.brake, 0.0), motion.down)
     last = motion.down if motion.pp > 0.0 else scale(-1.0, motion.down)
-    return along(pull, -motion.brake, last)
+    return add_scaled(pull, -motion.brake, last)
 
 
 @kernel
@@ -160,7 +160,7 @@ def parameter_at(motion, time):
         else:
             high = q
         following = q + (time - passed[0]) / max(length(passed[1]), 1e-300)
-        is_far = passed[0] > FAR * time
+        is_far = passed[0] > FAR_TOO_LONG * time
         if not is_far and abs(following - q) <= EXACT * q:
             return following
         if is_far or not low < following < high:

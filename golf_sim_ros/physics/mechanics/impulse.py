@@ -7,10 +7,10 @@ restitution, at most dynamic friction times the normal impulse. Fixed ground has
 from typing import NamedTuple
 
 from ..jit import kernel
-from .vector import along, cross, dot, length, put, scale, vector
+from .vector import add_scaled, cross, dot, length, store, scale, load
 
 
-class Bond(NamedTuple):
+class ContactProperties(NamedTuple):
     """What a pair brings to an impact.
 
     ``restitution``, ``tangential`` restitution, ``friction``; ``mass``: 1 / (1/m1 + 1/m2) [kg];
@@ -27,7 +27,7 @@ class Bond(NamedTuple):
 @kernel
 def slip(velocity, spin, normal, radius):
     """Velocity of the ball's material point that touches ground of `normal`, along the ground."""
-    return along(along(velocity, -dot(velocity, normal), normal), -radius, cross(spin, normal))
+    return add_scaled(add_scaled(velocity, -dot(velocity, normal), normal), -radius, cross(spin, normal))
 
 
 @kernel
@@ -47,13 +47,13 @@ def impulse(bond, velocity, spin, normal, radius):
     For two balls `spin` is the sum of both spins: each turns its own surface.
     """
     strength = max(-(1.0 + bond.restitution) * bond.mass * dot(velocity, normal), 0.0)
-    return along(friction(bond, strength, slip(velocity, spin, normal, radius)), strength, normal)
+    return add_scaled(friction(bond, strength, slip(velocity, spin, normal, radius)), strength, normal)
 
 
 @kernel
-def take(ball, push, normal, record):
+def apply_impulse(ball, push, normal, record):
     """Apply the impulse `push` at the ball's point opposite to `normal`. Writes velocity, spin."""
-    put(ball['velocity'], along(vector(ball['velocity']), 1.0 / record.mass, push))
+    store(ball['velocity'], add_scaled(load(ball['velocity']), 1.0 / record.mass, push))
     turn = scale(-record.radius, cross(normal, push))
     inertia = record.inertia * record.mass * record.radius * record.radius
-    put(ball['spin'], along(vector(ball['spin']), 1.0 / inertia, turn))
+    store(ball['spin'], add_scaled(load(ball['spin']), 1.0 / inertia, turn))

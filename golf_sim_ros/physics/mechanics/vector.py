@@ -8,13 +8,13 @@ ZERO = (0.0, 0.0, 0.0)
 
 
 @kernel
-def vector(row):
+def load(row):
     """Copy of an array of three as a tuple."""
     return row[0], row[1], row[2]
 
 
 @kernel
-def put(row, a):
+def store(row, a):
     """Write `a` into `row`."""
     row[0] = a[0]
     row[1] = a[1]
@@ -40,7 +40,7 @@ def scale(k, a):
 
 
 @kernel
-def along(a, k, b):
+def add_scaled(a, k, b):
     """a + k b."""
     return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]
 
@@ -75,4 +75,4 @@ def unit(a, otherwise):
 @kernel
 def tangential(a, normal):
     """Part of `a` across the unit vector `normal`."""
-    return along(a, -dot(a, normal), normal)
+    return add_scaled(a, -dot(a, normal), normal)

@@ -2,127 +2,127 @@
 """Balls that hit balls."""
 from ..collision import ball_interactions
 from ..collision.ball_gap import gap_between
-from ..collision.ground_contact import GENTLE
-from ..collision.workspace import CONTACTS, Crowd, MEMBERS
-from ..contact.contact_state import material_number, settle
+from ..collision.ground_contact import GENTLE_APPROACH
+from ..collision.workspace import CONTACTS, MultiBallWorkspace, INVOLVED
+from ..contact.contact_state import contact_material_number, choose_contact_mode
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import dot, length, put, vector
+from ..mechanics.vector import dot, length, store, load
 from ..state.ball import FLIGHT, SLIDE, moves
-from ..state.events import BOUNCE, BUMP, next_event
-from ..trajectory.equations_of_motion import STILL
-from ..trajectory.shot_record import keep_launch
+from ..state.events import BOUNCE, BALL_HIT, next_event
+from ..trajectory.equations_of_motion import LEAST_SPEED
+from ..trajectory.shot_record import mark_moved_by_ball
 from . import contact_set, simultaneous_impact
-from .time_stepping import leave, pile_up
+from .time_stepping import return_to_events, begin_time_stepping
 
-STALL = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
-MANY_MEETINGS = 8
-WORTH_TELLING = 0.1  # m/s of approach: slower contacts are not collisions
+RAPID_BALL_IMPACT = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
+MANY_BALL_IMPACTS = 8
+LEAST_LOGGED_APPROACH = 0.1  # m/s of approach: slower contacts are not collisions
 
 
-@ball_interactions.bump.register(Crowd)
+@ball_interactions.resolve_ball_impact.register(MultiBallWorkspace)
 def _bump(crowd, land, balls, i, now, log):
-    meet_ball(land, balls, i, now, crowd, log)
+    collide_balls(land, balls, i, now, crowd, log)
 
 
 @shared
-def meet_ball(land, balls, i, now, crowd, log):
+def collide_balls(land, balls, i, now, crowd, log):
     """Let ball `i` collide with the ball that it meets, and all that touch. Writes motion; logs impacts."""
     j = balls[i]['target']
-    contact_set.enlist(crowd, j)
-    contact_set.bring(balls[j], now)
+    contact_set.add_to_set(crowd, j)
+    contact_set.synchronize(balls[j], now)
     gap, rate, _ = gap_between(balls[i], balls[j], land.ball.radius, now)
-    if gap > contact_set.TOGETHER:
+    if gap > contact_set.SIMULTANEOUS_GAP:
         return  # the other one has got another path meanwhile
-    stalls = now - balls[i]['begin'] < STALL
+    stalls = now - balls[i]['begin'] < RAPID_BALL_IMPACT
     piled = balls[i]['piled'] or balls[j]['piled']
     if piled:  # the pile passes on what it is given
-        contact_set.ball_contact(land, balls, i, j, crowd, now)
+        contact_set.add_ball_contact(land, balls, i, j, crowd, now)
     else:
-        contact_set.gather(land, balls, crowd, now, 0)
-    collide(land, balls, now, crowd, 0, log)
-    scatter(land, balls, now, crowd, 0)
+        contact_set.collect_contacts(land, balls, crowd, now, 0)
+    resolve_contact_set(land, balls, now, crowd, 0, log)
+    resume_motion(land, balls, now, crowd, 0)
     for ball in (balls[i], balls[j]):
         if ball['piled']:
-            if rate <= -GENTLE:  # it hits on, and does not wait for the pile
-                leave(ball)
+            if rate <= -GENTLE_APPROACH:  # it hits on, and does not wait for the pile
+                return_to_events(ball)
             continue
         ball['stalled'] = ball['stalled'] + 1 if stalls else 0
-        if moves(ball['phase']) and (piled and rate > -GENTLE or ball['stalled'] > MANY_MEETINGS):
-            pile_up(ball)
+        if moves(ball['phase']) and (piled and rate > -GENTLE_APPROACH or ball['stalled'] > MANY_BALL_IMPACTS):
+            begin_time_stepping(ball)
 
 
 @shared
-def collide(land, balls, now, crowd, first, log):
+def resolve_contact_set(land, balls, now, crowd, first, log):
     """Let the members collide at all contacts. Writes motion; logs impacts, on ground from row `first` on."""
-    for k in range(crowd.count[MEMBERS]):
-        keep_launch(balls[crowd.members[k]])
-    remember(balls, crowd)
-    simultaneous_impact.reflect(land, balls, crowd)
-    ball_interactions.tell_bumps(crowd, balls, now, log)
+    for k in range(crowd.count[INVOLVED]):
+        mark_moved_by_ball(balls[crowd.members[k]])
+    store_motion_before(balls, crowd)
+    simultaneous_impact.solve_reflections(land, balls, crowd)
+    ball_interactions.log_ball_impacts(crowd, balls, now, log)
     for n in range(first, crowd.count[CONTACTS]):
         row = crowd.contacts[n]
-        if row['b'] < 0 and row['approach'] > WORTH_TELLING:
+        if row['b'] < 0 and row['approach'] > LEAST_LOGGED_APPROACH:
             ball = balls[row['a']]
             ball['bounces'] += 1
-            event = tell(balls, now, row, crowd, log)
+            event = log_contact_impact(balls, now, row, crowd, log)
             event['kind'] = BOUNCE
-            event['material'] = material_number(land, ball, row['part'], vector(row['normal']))
+            event['material'] = contact_material_number(land, ball, row['part'], load(row['normal']))
             event['sort'] = surfaces.sort(land.ground, row['part'])
 
 
-@ball_interactions.tell_bumps.register(Crowd)
+@ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
 def _tell_bumps(crowd, balls, now, log):
     for n in range(crowd.count[CONTACTS]):
         row = crowd.contacts[n]
-        if row['b'] >= 0 and row['approach'] > WORTH_TELLING:
-            event = tell(balls, now, row, crowd, log)
-            event['kind'] = BUMP
+        if row['b'] >= 0 and row['approach'] > LEAST_LOGGED_APPROACH:
+            event = log_contact_impact(balls, now, row, crowd, log)
+            event['kind'] = BALL_HIT
             event['material'] = row['b']
 
 
 @kernel
-def remember(balls, crowd):
+def store_motion_before(balls, crowd):
     """Keep the members' motion before the impact, for telling. Writes before."""
-    for k in range(crowd.count[MEMBERS]):
+    for k in range(crowd.count[INVOLVED]):
         i = crowd.members[k]
-        put(crowd.before[i, 0:3], vector(balls[i]['velocity']))
-        put(crowd.before[i, 3:6], vector(balls[i]['spin']))
+        store(crowd.before[i, 0:3], load(balls[i]['velocity']))
+        store(crowd.before[i, 3:6], load(balls[i]['spin']))
 
 
 @kernel
-def tell(balls, now, row, crowd, log):
+def log_contact_impact(balls, now, row, crowd, log):
     """Log an impact of a contact's ball. Returns the event, which lacks what was hit."""
     ball = balls[row['a']]
     event = next_event(log)
     event['time'] = now
     event['ball'] = row['a']
-    put(event['position'], vector(ball['position']))
-    put(event['normal'], vector(row['normal']))
-    put(event['velocity_before'], vector(crowd.before[row['a'], 0:3]))
-    put(event['velocity_after'], vector(ball['velocity']))
-    put(event['spin_before'], vector(crowd.before[row['a'], 3:6]))
-    put(event['spin_after'], vector(ball['spin']))
-    put(event['impulse'], vector(row['impulse']))
+    store(event['position'], load(ball['position']))
+    store(event['normal'], load(row['normal']))
+    store(event['velocity_before'], load(crowd.before[row['a'], 0:3]))
+    store(event['velocity_after'], load(ball['velocity']))
+    store(event['spin_before'], load(crowd.before[row['a'], 3:6]))
+    store(event['spin_after'], load(ball['spin']))
+    store(event['impulse'], load(row['impulse']))
     return event
 
 
 @kernel
-def scatter(land, balls, now, crowd, first):
+def resume_motion(land, balls, now, crowd, first):
     """Let the members from number `first` on go on as they now move. Writes phases and contacts."""
-    for k in range(first, crowd.count[MEMBERS]):
+    for k in range(first, crowd.count[INVOLVED]):
         ball = balls[crowd.members[k]]
         if not moves(ball['phase']):
-            if length(vector(ball['velocity'])) + length(vector(ball['spin'])) == 0.0:
+            if length(load(ball['velocity'])) + length(load(ball['spin'])) == 0.0:
                 continue
             ball['tail_end'] = now
             ball['leans'] = 0
-        lift = dot(vector(ball['velocity']), vector(ball['normal']))
+        lift = dot(load(ball['velocity']), load(ball['normal']))
         if ball['piled']:
             ball['phase'] = FLIGHT
-        elif ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= STILL:
+        elif ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= LEAST_SPEED:
             ball['phase'] = SLIDE
-            settle(land, ball, now)
+            choose_contact_mode(land, ball, now)
         else:
             ball['phase'] = FLIGHT
         ball['step'] = 0.0

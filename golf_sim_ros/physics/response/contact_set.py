@@ -1,76 +1,76 @@
 # SPDX-License-Identifier: Apache-2.0
 """The contacts of one instant: balls that share an impact, what they touch, and what that touches."""
 from ..collision import ball_interactions
-from ..collision.ball_gap import UP, place_at, velocity_at
+from ..collision.ball_gap import UP, position_at, velocity_at
 from ..collision.broad_phase import next_node
-from ..collision.workspace import CONTACTS, Crowd, MEMBERS
-from ..contact.contact_state import material_of
+from ..collision.workspace import CONTACTS, MultiBallWorkspace, INVOLVED
+from ..contact.contact_state import contact_material
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, dot, length, put, sub, unit, vector
+from ..mechanics.vector import ZERO, dot, length, store, sub, unit, load
 from ..properties.material import restitution
-from ..state.ball import FLIGHT, HOLED, STEP, moves
-from ..trajectory.equations_of_motion import STILL
+from ..state.ball import FLIGHT, HOLED, STEP_END, moves
+from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.segment import spin as spin_at
-from ..trajectory.shot_record import keep_highest
+from ..trajectory.shot_record import update_apex
 
-TOGETHER = 1e-9  # m: what is that near is touched at the same instant
-SAME = 1e-9  # 1 - cosine of the angle below which two normals are one
+SIMULTANEOUS_GAP = 1e-9  # m: what is that near is touched at the same instant
+SAME_NORMAL = 1e-9  # 1 - cosine of the angle below which two normals are one
 MOST_MEMBERS = 64
 
 
 @kernel
-def bring(ball, now):
+def synchronize(ball, now):
     """Bring a ball to `now`, where its piece ends before its time. Writes motion, end, ending."""
     if not moves(ball['phase']):
         return
     ball['end'] = now
-    ball['ending'] = STEP
-    keep_highest(ball)
+    ball['ending'] = STEP_END
+    update_apex(ball)
     time = now - ball['begin']
-    place = place_at(ball, now)
+    place = position_at(ball, now)
     velocity = velocity_at(ball, now)
     turning = spin_at(ball, time)
-    put(ball['position'], place)
-    put(ball['velocity'], velocity)
-    put(ball['spin'], turning)
+    store(ball['position'], place)
+    store(ball['velocity'], velocity)
+    store(ball['spin'], turning)
 
 
 @shared
-def gather(land, balls, crowd, now, known):
+def collect_contacts(land, balls, crowd, now, known):
     """Find all that the members touch, and what that touches. Writes members, contacts.
 
     Of the first `known` members, the contacts with the ground are there already.
     """
     k = 0
-    while k < crowd.count[MEMBERS]:
+    while k < crowd.count[INVOLVED]:
         i = crowd.members[k]
         if k >= known:
-            gather_ground(land, balls[i], i, crowd, 0 if k == 0 else crowd.count[CONTACTS])
+            collect_ground_contacts(land, balls[i], i, crowd, 0 if k == 0 else crowd.count[CONTACTS])
         if not balls[i]['piled']:  # a pile passes on what it is given
-            ball_interactions.gather_balls(crowd, land, balls, i, now)
+            ball_interactions.collect_ball_contacts(crowd, land, balls, i, now)
         k += 1
 
 
 @kernel
-def enlist(crowd, i):
+def add_to_set(crowd, i):
     """Make ball `i`, which is where it is now, a member."""
-    crowd.places[i] = crowd.count[MEMBERS]
-    crowd.members[crowd.count[MEMBERS]] = i
-    crowd.count[MEMBERS] += 1
+    crowd.places[i] = crowd.count[INVOLVED]
+    crowd.members[crowd.count[INVOLVED]] = i
+    crowd.count[INVOLVED] += 1
 
 
 @kernel
-def disperse(crowd):
+def clear_set(crowd):
     """Let there be no members. Writes count, places."""
-    for k in range(crowd.count[MEMBERS]):
+    for k in range(crowd.count[INVOLVED]):
         crowd.places[crowd.members[k]] = -1
-    crowd.count[MEMBERS] = 0
+    crowd.count[INVOLVED] = 0
     crowd.count[CONTACTS] = 0
 
 
 @kernel
-def new_contact(crowd, a, b, part, normal):
+def add_contact(crowd, a, b, part, normal):
     """Row of a new contact of ball `a` with ball `b`, or with a part of the ground; -1 when full."""
     n = crowd.count[CONTACTS]
     if n == len(crowd.contacts):
@@ -82,38 +82,38 @@ def new_contact(crowd, a, b, part, normal):
     row['part'] = part
     row['push'] = 0.0
     row['approach'] = 0.0
-    put(row['normal'], normal)
-    put(row['impulse'], ZERO)
+    store(row['normal'], normal)
+    store(row['impulse'], ZERO)
     return n
 
 
-@ball_interactions.gather_balls.register(Crowd)
+@ball_interactions.collect_ball_contacts.register(MultiBallWorkspace)
 def _gather_balls(crowd, land, balls, i, now):
     k = crowd.places[i]
     radius = land.ball.radius
-    here = vector(balls[i]['position'])
-    low, high = surfaces.around(here, radius + TOGETHER)
+    here = load(balls[i]['position'])
+    low, high = surfaces.around(here, radius + SIMULTANEOUS_GAP)
     at = next_node(crowd, 0, low, high)
     while at >= 0:
         j = crowd.nodes[at]['ball']
         at = next_node(crowd, at + 1, low, high)
         if j == i or balls[j]['phase'] == HOLED or 0 <= crowd.places[j] < k:
             continue
-        apart = sub(here, place_at(balls[j], now))
-        if length(apart) - 2.0 * radius > TOGETHER:
+        apart = sub(here, position_at(balls[j], now))
+        if length(apart) - 2.0 * radius > SIMULTANEOUS_GAP:
             continue
         if crowd.places[j] < 0:
-            if crowd.count[MEMBERS] == MOST_MEMBERS:
+            if crowd.count[INVOLVED] == MOST_MEMBERS:
                 continue
-            enlist(crowd, j)
-            bring(balls[j], now)
-        ball_contact(land, balls, i, j, crowd, now)
+            add_to_set(crowd, j)
+            synchronize(balls[j], now)
+        add_ball_contact(land, balls, i, j, crowd, now)
 
 
 @kernel
-def ball_contact(land, balls, i, j, crowd, now):
+def add_ball_contact(land, balls, i, j, crowd, now):
     """Add the contact of balls `i` and `j`."""
-    n = new_contact(crowd, i, j, -1, unit(sub(place_at(balls[i], now), place_at(balls[j], now)), UP))
+    n = add_contact(crowd, i, j, -1, unit(sub(position_at(balls[i], now), position_at(balls[j], now)), UP))
     if n >= 0:
         row = crowd.contacts[n]
         row['restitution'] = land.ball.restitution
@@ -123,60 +123,60 @@ def ball_contact(land, balls, i, j, crowd, now):
 
 
 @kernel
-def gather_ground(land, ball, i, crowd, begin):
+def collect_ground_contacts(land, ball, i, crowd, begin):
     """Contacts of ball `i` with the ground: what supports it first. Its own start at `begin`."""
     ground = land.ground
-    place = vector(ball['position'])
-    if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new(crowd, begin, vector(ball['normal'])):
-        normal = vector(ball['normal'])
-        ground_contact(land, ball, i, ball['support'], normal,
-                       material_of(land, ball, ball['support'], normal), crowd)
-    low, high = surfaces.around(place, land.ball.radius + TOGETHER)
+    place = load(ball['position'])
+    if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(crowd, begin, load(ball['normal'])):
+        normal = load(ball['normal'])
+        add_ground_contact(land, ball, i, ball['support'], normal,
+                       contact_material(land, ball, ball['support'], normal), crowd)
+    low, high = surfaces.around(place, land.ball.radius + SIMULTANEOUS_GAP)
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         distance, normal = surfaces.nearest(ground, part, place)
-        if distance - land.ball.radius <= TOGETHER and is_new(crowd, begin, normal) and (
+        if distance - land.ball.radius <= SIMULTANEOUS_GAP and is_new_normal(crowd, begin, normal) and (
                 surfaces.touchable(ground, part, place)):
-            ground_contact(land, ball, i, part, normal, material_of(land, ball, part, normal), crowd)
+            add_ground_contact(land, ball, i, part, normal, contact_material(land, ball, part, normal), crowd)
         part = surfaces.next_part(ground, part + 1, low, high)
 
 
 @kernel
-def is_new(crowd, begin, normal):
+def is_new_normal(crowd, begin, normal):
     """Whether `normal` is none of the contacts from `begin` on."""
     for n in range(begin, crowd.count[CONTACTS]):
-        if dot(vector(crowd.contacts[n]['normal']), normal) > 1.0 - SAME:
+        if dot(load(crowd.contacts[n]['normal']), normal) > 1.0 - SAME_NORMAL:
             return False
     return True
 
 
 @kernel
-def ground_contact(land, ball, i, part, normal, material, crowd):
+def add_ground_contact(land, ball, i, part, normal, material, crowd):
     """Add the contact of ball `i` with `part`, which is of that `material`."""
-    n = new_contact(crowd, i, -1, part, normal)
+    n = add_contact(crowd, i, -1, part, normal)
     if n < 0:
         return
     row = crowd.contacts[n]
-    row['restitution'] = restitution(material, max(-dot(vector(ball['velocity']), normal), 0.0))
+    row['restitution'] = restitution(material, max(-dot(load(ball['velocity']), normal), 0.0))
     row['tangential'] = material['tangential_restitution']
     row['friction'] = material['dynamic_friction']
     row['mass'] = land.ball.mass
 
 
 @kernel
-def rate_of(balls, row):
+def separation_rate(balls, row):
     """Rate at which the gap of a contact grows."""
-    normal = vector(row['normal'])
-    rate = dot(vector(balls[row['a']]['velocity']), normal)
+    normal = load(row['normal'])
+    rate = dot(load(balls[row['a']]['velocity']), normal)
     if row['b'] >= 0:
-        rate -= dot(vector(balls[row['b']]['velocity']), normal)
+        rate -= dot(load(balls[row['b']]['velocity']), normal)
     return rate
 
 
 @kernel
-def approaching(balls, crowd):
+def count_approaching(balls, crowd):
     """Number of contacts that approach: not those of what a ball rolls on, but for rounding."""
     found = 0
     for n in range(crowd.count[CONTACTS]):
-        found += rate_of(balls, crowd.contacts[n]) < -STILL
+        found += separation_rate(balls, crowd.contacts[n]) < -LEAST_SPEED
     return found

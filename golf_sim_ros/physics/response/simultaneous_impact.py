@@ -9,45 +9,45 @@ that neither the order in memory nor left and right count.
 """
 from math import sqrt
 
-from ..collision.workspace import CONTACTS, MEMBERS
+from ..collision.workspace import CONTACTS, INVOLVED
 from ..jit import kernel, shared
-from ..mechanics.impulse import Bond, friction, slip, take
-from ..mechanics.vector import ZERO, add, along, dot, length, put, scale, sub, vector
-from .contact_set import rate_of
+from ..mechanics.impulse import ContactProperties, friction, slip, apply_impulse
+from ..mechanics.vector import ZERO, add, add_scaled, dot, length, store, scale, sub, load
+from .contact_set import separation_rate
 
-ROUNDS = 200
-SWEEPS = 3000
+MOST_REFLECTIONS = 200
+MOST_GRADIENT_STEPS = 3000
 
 
 @shared
-def reflect(land, balls, crowd):
+def solve_reflections(land, balls, crowd):
     """Let all contacts bounce at once. Writes velocities, spins, and the contacts' impulses."""
     contacts = crowd.contacts
     count = crowd.count[CONTACTS]
     fastest = 0.0
-    for k in range(crowd.count[MEMBERS]):
-        fastest = max(fastest, length(vector(balls[crowd.members[k]]['velocity'])))
-    for round_ in range(ROUNDS):
+    for k in range(crowd.count[INVOLVED]):
+        fastest = max(fastest, length(load(balls[crowd.members[k]]['velocity'])))
+    for round_ in range(MOST_REFLECTIONS):
         approaching = False
         for n in range(count):
             row = contacts[n]
-            row['rate'] = rate_of(balls, row)
+            row['rate'] = separation_rate(balls, row)
             row['approach'] = max(row['approach'], -row['rate'])
             # At last nothing bounces any more, and all that touches counts: then none approaches.
-            row['active'] = row['rate'] < -1e-12 * fastest or round_ == ROUNDS - 1
+            row['active'] = row['rate'] < -1e-12 * fastest or round_ == MOST_REFLECTIONS - 1
             approaching |= row['rate'] < -1e-12 * fastest
         if not approaching:
             break
-        project(crowd)
-        push_apart(land, balls, crowd, round_ == ROUNDS - 1)
+        project_impulses(crowd)
+        apply_impulses(land, balls, crowd, round_ == MOST_REFLECTIONS - 1)
 
 
 @kernel
-def project(crowd):
+def project_impulses(crowd):
     """Least impulses (over mass) that stop all approach at the active contacts. Writes push."""
     contacts = crowd.contacts
     count = crowd.count[CONTACTS]
-    active = share_out(crowd)
+    active = count_contacts(crowd)
     if active == 1:
         for n in range(count):
             row = contacts[n]
@@ -63,8 +63,8 @@ def project(crowd):
             # A bound on the row sums of the matrix that turns pushes into rates.
             most = max(most, (2.0 if row['b'] >= 0 else 1.0) * row['shared'])
     momentum = 1.0
-    for _ in range(SWEEPS):
-        flow_from(crowd)
+    for _ in range(MOST_GRADIENT_STEPS):
+        apply_extrapolated(crowd)
         changed = 0.0
         largest = 0.0
         turned = 0.0
@@ -72,7 +72,7 @@ def project(crowd):
             row = contacts[n]
             if not row['active']:
                 continue
-            slope = row['rate'] + flow_along(crowd, row)
+            slope = row['rate'] + rate_change(crowd, row)
             push = max(row['ahead'] - slope / most, 0.0)
             turned += (row['ahead'] - push) * (push - row['push'])
             row['before'] = row['push']
@@ -93,9 +93,9 @@ def project(crowd):
 
 
 @kernel
-def share_out(crowd):
+def count_contacts(crowd):
     """Count active contacts, and those of each ball. Writes flow; returns the number of all."""
-    for k in range(crowd.count[MEMBERS]):
+    for k in range(crowd.count[INVOLVED]):
         crowd.flow[crowd.members[k], 0] = 0.0
     active = 0
     for n in range(crowd.count[CONTACTS]):
@@ -114,32 +114,32 @@ def share_out(crowd):
 
 
 @kernel
-def flow_from(crowd):
+def apply_extrapolated(crowd):
     """Change of velocities by the contacts' `ahead`. Writes flow."""
-    for k in range(crowd.count[MEMBERS]):
-        put(crowd.flow[crowd.members[k]], ZERO)
+    for k in range(crowd.count[INVOLVED]):
+        store(crowd.flow[crowd.members[k]], ZERO)
     for n in range(crowd.count[CONTACTS]):
         row = crowd.contacts[n]
         if row['active'] and row['ahead'] != 0.0:
             a = crowd.flow[row['a']]
-            put(a, along(vector(a), row['ahead'], vector(row['normal'])))
+            store(a, add_scaled(load(a), row['ahead'], load(row['normal'])))
             if row['b'] >= 0:
                 b = crowd.flow[row['b']]
-                put(b, along(vector(b), -row['ahead'], vector(row['normal'])))
+                store(b, add_scaled(load(b), -row['ahead'], load(row['normal'])))
 
 
 @kernel
-def flow_along(crowd, row):
+def rate_change(crowd, row):
     """Change of the rate of a contact by `flow`."""
-    normal = vector(row['normal'])
-    change = dot(vector(crowd.flow[row['a']]), normal)
+    normal = load(row['normal'])
+    change = dot(load(crowd.flow[row['a']]), normal)
     if row['b'] >= 0:
-        change -= dot(vector(crowd.flow[row['b']]), normal)
+        change -= dot(load(crowd.flow[row['b']]), normal)
     return change
 
 
 @kernel
-def push_apart(land, balls, crowd, last):
+def apply_impulses(land, balls, crowd, last):
     """Apply the pushes with restitution, unless it is the `last` round, then friction. Writes motion."""
     contacts = crowd.contacts
     for n in range(crowd.count[CONTACTS]):
@@ -147,38 +147,38 @@ def push_apart(land, balls, crowd, last):
         if row['active']:
             e = 0.0 if last else row['restitution']
             row['push'] *= (1.0 + e) * land.ball.mass
-            give(land, balls, row, scale(row['push'], vector(row['normal'])))
+            apply_to_both(land, balls, row, scale(row['push'], load(row['normal'])))
     # All friction is worked out before any acts, and a ball's contacts share it: none comes first.
     for n in range(crowd.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            bond = Bond(0.0, row['tangential'], row['friction'], row['mass'], land.ball.inertia)
-            rub = friction(bond, row['push'], sliding_of(land, balls, row))
-            put(row['rub'], scale(1.0 / row['shared'], rub))
+            bond = ContactProperties(0.0, row['tangential'], row['friction'], row['mass'], land.ball.inertia)
+            rub = friction(bond, row['push'], contact_slip(land, balls, row))
+            store(row['rub'], scale(1.0 / row['shared'], rub))
     for n in range(crowd.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            give(land, balls, row, vector(row['rub']))
+            apply_to_both(land, balls, row, load(row['rub']))
 
 
 @kernel
-def give(land, balls, row, push):
+def apply_to_both(land, balls, row, push):
     """Apply the impulse `push` [N s] of a contact to both sides. Writes motion and the contact's impulse."""
-    normal = vector(row['normal'])
-    put(row['impulse'], add(vector(row['impulse']), push))
-    take(balls[row['a']], push, normal, land.ball)
+    normal = load(row['normal'])
+    store(row['impulse'], add(load(row['impulse']), push))
+    apply_impulse(balls[row['a']], push, normal, land.ball)
     if row['b'] >= 0:
-        take(balls[row['b']], scale(-1.0, push), scale(-1.0, normal), land.ball)
+        apply_impulse(balls[row['b']], scale(-1.0, push), scale(-1.0, normal), land.ball)
 
 
 @kernel
-def sliding_of(land, balls, row):
+def contact_slip(land, balls, row):
     """Velocity of `a`'s surface along that of what it touches."""
     a = balls[row['a']]
-    velocity = vector(a['velocity'])
-    spin = vector(a['spin'])
+    velocity = load(a['velocity'])
+    spin = load(a['spin'])
     if row['b'] >= 0:
         b = balls[row['b']]
-        velocity = sub(velocity, vector(b['velocity']))
-        spin = add(spin, vector(b['spin']))
-    return slip(velocity, spin, vector(row['normal']), land.ball.radius)
+        velocity = sub(velocity, load(b['velocity']))
+        spin = add(spin, load(b['spin']))
+    return slip(velocity, spin, load(row['normal']), land.ball.radius)

@@ -12,50 +12,50 @@ that has just joined has its own.
 from math import floor
 
 from ..collision import ball_interactions
-from ..collision.ball_gap import place_at
+from ..collision.ball_gap import position_at
 from ..collision.broad_phase import next_node
-from ..collision.ground_contact import PILE_NEAR
-from ..collision.workspace import ASLEEP, CONTACTS, Crowd, MEMBERS
-from ..contact.contact_state import settle
-from ..effects import pull
+from ..collision.ground_contact import RESTING_GAP
+from ..collision.workspace import ASLEEP, CONTACTS, MultiBallWorkspace, INVOLVED
+from ..contact.contact_state import choose_contact_mode
+from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, along, length, put, scale, sub, vector
-from ..state.ball import FLIGHT, HOLED, JOINED, NO_PART, PILED, REST, SLIDE, STEP
-from ..trajectory.segment import lay
-from ..trajectory.shot_record import keep_launch
-from .contact_set import bring, enlist
-from .contact_solver import (PILE_STEP, ball_contact, closing, far_reach, follow, ground_contacts, hold_up,
-                             neighbours, part_overlaps, press, slow_down)
-from .wedged_ball import MANY_STALLS, is_caught
+from ..mechanics.vector import ZERO, add_scaled, length, store, scale, sub, load
+from ..state.ball import FLIGHT, HOLED, JOINED, NO_PART, STEPPED, REST, SLIDE, STEP_END
+from ..trajectory.segment import fit_segment
+from ..trajectory.shot_record import mark_moved_by_ball
+from .contact_set import synchronize, add_to_set
+from .contact_solver import (TIME_STEP, add_resting_contact, gap_rate, contact_reach, write_back, add_ground_contacts, count_support,
+                             neighbours_within, correct_positions, solve_contacts, limit_speed)
+from .wedged_ball import MANY_RAPID_IMPACTS, is_wedged
 
-PUSHED = 1e-3  # m/s of approach wake a sleeper
-CREEP = 0.02  # m/s: what moves slower in a pile is damped, for the sweeps never quite end
-DAMPED = 0.9
-CALM = 4e-3  # m/s
-CALM_STEPS = 50
-FREE = 2.0  # m/s: faster than this a ball flies on its own
+WAKING_APPROACH = 1e-3  # m/s of approach wake a sleeper
+DAMPED_SPEED = 0.02  # m/s: what moves slower in a pile is damped, for the sweeps never quite end
+DAMPING = 0.9
+STILL_SPEED = 4e-3  # m/s
+STEPS_TO_SLEEP = 50
+FREE_SPEED = 2.0  # m/s: faster than this a ball flies on its own
 
 
 @kernel
-def next_instant(now):
+def next_step_time(now):
     """The next instant at which piles are solved."""
-    return (floor(now / PILE_STEP) + 1.0) * PILE_STEP
+    return (floor(now / TIME_STEP) + 1.0) * TIME_STEP
 
 
 @kernel
-def is_instant(now):
+def is_step_time(now):
     """Whether piles are solved at `now`."""
-    return floor(now / PILE_STEP) * PILE_STEP == now
+    return floor(now / TIME_STEP) * TIME_STEP == now
 
 
 @kernel
-def pile_up(ball):
+def begin_time_stepping(ball):
     """Make a ball one of a pile."""
-    keep_launch(ball)
+    mark_moved_by_ball(ball)
     ball['leans'] = 0
     ball['piled'] = JOINED
-    ball['stalled'] = MANY_STALLS + 1
+    ball['stalled'] = MANY_RAPID_IMPACTS + 1
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
     ball['calm'] = 0
@@ -63,111 +63,111 @@ def pile_up(ball):
 
 
 @kernel
-def leave(ball):
+def return_to_events(ball):
     """Let a ball be no longer one of a pile."""
     ball['piled'] = 0
     ball['stalled'] = 0
 
 
 @kernel
-def go_straight(ball, span):
+def straight_segment(ball, span):
     """Lay a straight piece of `span` seconds. Writes curve and ending."""
-    v = vector(ball['velocity'])
+    v = load(ball['velocity'])
     ball['span'] = span
-    ball['ending'] = STEP
-    put(ball['origin'], vector(ball['position']))
-    put(ball['twist'][3], vector(ball['spin']))
-    lay(ball, scale(span, v), (v, v), (ZERO, ZERO), (ZERO, ZERO))
+    ball['ending'] = STEP_END
+    store(ball['origin'], load(ball['position']))
+    store(ball['twist'][3], load(ball['spin']))
+    fit_segment(ball, scale(span, v), (v, v), (ZERO, ZERO), (ZERO, ZERO))
 
 
 @shared
-def leans_on_a_ball(balls, crowd, i, radius, now):
+def touches_ball(balls, crowd, i, radius, now):
     """Whether another ball is within PILE_NEAR of ball `i`."""
-    here = vector(balls[i]['position'])
-    low, high = surfaces.around(here, radius + PILE_NEAR)
+    here = load(balls[i]['position'])
+    low, high = surfaces.around(here, radius + RESTING_GAP)
     at = next_node(crowd, 0, low, high)
     while at >= 0:
         j = crowd.nodes[at]['ball']
         if j != i and balls[j]['phase'] != HOLED and (
-                length(sub(here, place_at(balls[j], now))) - 2.0 * radius <= PILE_NEAR):
+                length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= RESTING_GAP):
             return True
         at = next_node(crowd, at + 1, low, high)
     return False
 
 
-@ball_interactions.lean.register(Crowd)
+@ball_interactions.step_together.register(MultiBallWorkspace)
 def _lean(crowd, land, balls, i, now):
     if balls[i]['piled']:
-        if is_instant(now):
-            hold_pile(land, balls, now, crowd)
+        if is_step_time(now):
+            solve_time_step(land, balls, now, crowd)
         return True
-    if is_caught(balls[i]) and leans_on_a_ball(balls, crowd, i, land.ball.radius, now):
-        pile_up(balls[i])
+    if is_wedged(balls[i]) and touches_ball(balls, crowd, i, land.ball.radius, now):
+        begin_time_stepping(balls[i])
         return True
     return False
 
 
-@ball_interactions.rouse.register(Crowd)
+@ball_interactions.wake.register(MultiBallWorkspace)
 def _rouse(crowd, balls, radius, now):
     if not crowd.count[ASLEEP]:
         return
-    for k in range(crowd.count[MEMBERS]):
+    for k in range(crowd.count[INVOLVED]):
         i = crowd.members[k]
         if balls[i]['phase'] == REST:
             continue
-        here = vector(balls[i]['position'])
-        low, high = surfaces.around(here, radius + 2.0 * PILE_NEAR)
+        here = load(balls[i]['position'])
+        low, high = surfaces.around(here, radius + 2.0 * RESTING_GAP)
         at = next_node(crowd, 0, low, high)
         while at >= 0:
             j = crowd.nodes[at]['ball']
             at = next_node(crowd, at + 1, low, high)
             other = balls[j]
             if crowd.places[j] < 0 and other['phase'] == REST and other['leans'] and (
-                    length(sub(here, vector(other['position']))) - 2.0 * radius <= 2.0 * PILE_NEAR):
-                enlist(crowd, j)
-                pile_up(other)
+                    length(sub(here, load(other['position']))) - 2.0 * radius <= 2.0 * RESTING_GAP):
+                add_to_set(crowd, j)
+                begin_time_stepping(other)
 
 
 @shared
-def hold_pile(land, balls, now, crowd):
+def solve_time_step(land, balls, now, crowd):
     """Solve all contacts of the piled balls that are due: the members. Writes motion and phases."""
     for i in range(len(balls)):
         if balls[i]['piled'] and crowd.ends[i] == now and crowd.places[i] < 0:
-            enlist(crowd, i)
-            bring(balls[i], now)
-    for k in range(crowd.count[MEMBERS]):
-        speed_up(land, balls, crowd, crowd.members[k])
-    find_contacts(land, balls, crowd, now)
-    part_overlaps(balls, crowd)
-    press(land, balls, crowd)
-    for k in range(crowd.count[MEMBERS]):
-        follow(balls[crowd.members[k]], crowd, crowd.members[k])
+            add_to_set(crowd, i)
+            synchronize(balls[i], now)
+    for k in range(crowd.count[INVOLVED]):
+        apply_gravity(land, balls, crowd, crowd.members[k])
+    collect_resting_contacts(land, balls, crowd, now)
+    correct_positions(balls, crowd)
+    solve_contacts(land, balls, crowd)
+    for k in range(crowd.count[INVOLVED]):
+        write_back(balls[crowd.members[k]], crowd, crowd.members[k])
     for n in range(crowd.count[CONTACTS]):
-        hold_up(land, balls, crowd.contacts[n])
-    for k in range(crowd.count[MEMBERS]):
-        let_go(land, balls[crowd.members[k]], now, crowd)
+        count_support(land, balls, crowd.contacts[n])
+    for k in range(crowd.count[INVOLVED]):
+        choose_after_step(land, balls[crowd.members[k]], now, crowd)
 
 
 @kernel
-def speed_up(land, balls, crowd, i):
+def apply_gravity(land, balls, crowd, i):
     """Let gravity act on member `i` up to half-way through its next step. Writes before and piled."""
     ball = balls[i]
-    time = PILE_STEP if ball['piled'] == PILED else 0.5 * PILE_STEP
-    ball['piled'] = PILED
-    weight = pull(land.effects, vector(ball['position']))
-    put(crowd.before[i, 0:3], along(vector(ball['velocity']), time, weight))
-    put(crowd.before[i, 3:6], vector(ball['spin']))
+    time = TIME_STEP if ball['piled'] == STEPPED else 0.5 * TIME_STEP
+    ball['piled'] = STEPPED
+    weight = gravity_at(land.effects, load(ball['position']))
+    store(crowd.before[i, 0:3], add_scaled(load(ball['velocity']), time, weight))
+    store(crowd.before[i, 3:6], load(ball['spin']))
 
 
 @shared
-def find_contacts(land, balls, crowd, now):
+def collect_resting_contacts(land, balls, crowd, now):
     """Contacts of the members with all that they may reach. Writes contacts, members and their reach."""
-    reach = far_reach(crowd)
+    reach = contact_reach(crowd)
     k = 0
-    while k < crowd.count[MEMBERS]:
+    while k < crowd.count[INVOLVED]:
         i = crowd.members[k]
-        ground_contacts(land, balls[i], i, crowd, reach)
-        found, watch = neighbours(balls, crowd, i, reach, land.ball.radius, now)
+        add_ground_contacts(land, balls[i], i, crowd, reach)
+        found, watch = neighbours_within(balls, crowd, i, reach, land.ball.radius, now)
         balls[i]['reach'] = reach
         balls[i]['watch'] = watch
         for n in range(found):
@@ -177,38 +177,38 @@ def find_contacts(land, balls, crowd, now):
             if crowd.places[j] < 0:
                 if balls[j]['phase'] != REST:
                     continue  # it comes by itself
-                rate = closing(balls, i, j, now)
-                if rate < -PUSHED or balls[j]['leans'] and rate > PUSHED:
-                    pile_up(balls[j])
-                    enlist(crowd, j)
-                    speed_up(land, balls, crowd, j)
-            ball_contact(land, balls, crowd, i, j, now)
+                rate = gap_rate(balls, i, j, now)
+                if rate < -WAKING_APPROACH or balls[j]['leans'] and rate > WAKING_APPROACH:
+                    begin_time_stepping(balls[j])
+                    add_to_set(crowd, j)
+                    apply_gravity(land, balls, crowd, j)
+            add_resting_contact(land, balls, crowd, i, j, now)
         k += 1
 
 
 @kernel
-def let_go(land, ball, now, crowd):
+def choose_after_step(land, ball, now, crowd):
     """Let a member rest, roll away, fly away, or stay in the pile. Writes motion and phase."""
-    speed = length(vector(ball['velocity']))
+    speed = length(load(ball['velocity']))
     left = max(speed - ball['braking'], 0.0)
-    if left < CREEP and ball['held'] > 1:
-        left *= DAMPED
-    slow_down(ball, left)
-    turning = land.ball.radius * length(vector(ball['spin']))
-    ball['calm'] = ball['calm'] + 1 if left + turning < CALM and ball['held'] > 0 else 0
+    if left < DAMPED_SPEED and ball['held'] > 1:
+        left *= DAMPING
+    limit_speed(ball, left)
+    turning = land.ball.radius * length(load(ball['spin']))
+    ball['calm'] = ball['calm'] + 1 if left + turning < STILL_SPEED and ball['held'] > 0 else 0
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
-    if ball['calm'] > CALM_STEPS:
+    if ball['calm'] > STEPS_TO_SLEEP:
         ball['leans'] = 1 if ball['held'] > 1 else 0
         crowd.count[ASLEEP] |= ball['leans']
-        leave(ball)
-        put(ball['velocity'], ZERO)
-        put(ball['spin'], ZERO)
+        return_to_events(ball)
+        store(ball['velocity'], ZERO)
+        store(ball['spin'], ZERO)
         ball['phase'] = REST
-    elif ball['held'] == 0 or speed > FREE or ball['held'] == 1 and ball['support'] != NO_PART:
-        leave(ball)
-        weight = pull(land.effects, vector(ball['position']))
-        put(ball['velocity'], along(vector(ball['velocity']), -0.5 * PILE_STEP, weight))
+    elif ball['held'] == 0 or speed > FREE_SPEED or ball['held'] == 1 and ball['support'] != NO_PART:
+        return_to_events(ball)
+        weight = gravity_at(land.effects, load(ball['position']))
+        store(ball['velocity'], add_scaled(load(ball['velocity']), -0.5 * TIME_STEP, weight))
         if ball['held'] == 1 and ball['support'] != NO_PART:
             ball['phase'] = SLIDE
-            settle(land, ball, now)
+            choose_contact_mode(land, ball, now)

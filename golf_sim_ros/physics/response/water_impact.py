@@ -3,11 +3,11 @@
 from math import asin, pi, sqrt
 
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, dot, length, put, scale, sub, vector
+from ..mechanics.vector import ZERO, dot, length, store, scale, sub, load
 from ..properties.water import ADDED_MASS, WATER_DENSITY
 from ..state.ball import FLIGHT, NO_PART, WATER, moves
-from ..state.events import WET, next_event
-from ..trajectory.shot_record import note_landing
+from ..state.events import WATER_HIT, next_event
+from ..trajectory.shot_record import record_landing
 
 # Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998) 15-24: a
 # sphere comes off water that it meets at less than 18 degrees over the root of its specific gravity. For a
@@ -16,11 +16,11 @@ CRITICAL_ANGLE = 18.0 * pi / 180
 # That is for balls so fast that their weight does not count. Estimates: the slowest that skips, and what
 # it keeps of its speed along the water, upwards, and of its spin.
 SKIPS_AT = 10.0  # m/s
-KEPT_ALONG = 0.7
-KEPT_UPWARD = 0.6
-KEPT_SPIN = 0.5
+ALONG_KEPT = 0.7
+UPWARD_KEPT = 0.6
+SPIN_KEPT = 0.5
 DEEP = 2.0  # radii below the surface
-SLOW = 0.5  # m/s: a golf ball sinks at 0.4
+SINKING_SPEED = 0.5  # m/s: a golf ball sinks at 0.4
 DEEPEST = 5.0  # m: further down no ball is followed
 
 
@@ -32,34 +32,34 @@ def specific_gravity(record):
 
 
 @shared
-def splash(land, ball, number, now, log):
+def resolve_water_impact(land, ball, number, now, log):
     """Let ball `number` skip off the water that it meets, or go in. Writes motion; logs the impact.
 
     In it shares its momentum with the water that it carries along.
     """
-    note_landing(ball, now)
-    velocity = vector(ball['velocity'])
-    spin = vector(ball['spin'])
+    record_landing(ball, now)
+    velocity = load(ball['velocity'])
+    spin = load(ball['spin'])
     heavy = specific_gravity(land.ball)
-    if skips(land, ball, velocity, heavy):
+    if skips_off(land, ball, velocity, heavy):
         ball['bounces'] += 1
         x, y, z = velocity
-        put(ball['velocity'], (KEPT_ALONG * x, KEPT_ALONG * y, -KEPT_UPWARD * z))
-        put(ball['spin'], scale(KEPT_SPIN, spin))
+        store(ball['velocity'], (ALONG_KEPT * x, ALONG_KEPT * y, -UPWARD_KEPT * z))
+        store(ball['spin'], scale(SPIN_KEPT, spin))
     else:
         ball['water'] = ball['target']
-        put(ball['velocity'], scale(heavy / (heavy + ADDED_MASS), velocity))
+        store(ball['velocity'], scale(heavy / (heavy + ADDED_MASS), velocity))
         if ball['phase'] == FLIGHT:
             ball['support'] = NO_PART
-    put(ball['normal'], (0.0, 0.0, 1.0))
+    store(ball['normal'], (0.0, 0.0, 1.0))
     ball['step'] = 0.0
     ball['stalled'] = 0
     ball['piled'] = 0
-    tell(land, ball, number, now, (velocity, spin), log)
+    log_water_impact(land, ball, number, now, (velocity, spin), log)
 
 
 @kernel
-def skips(land, ball, velocity, heavy):
+def skips_off(land, ball, velocity, heavy):
     """Whether a ball of specific gravity `heavy` that meets water at `velocity` comes off it again."""
     speed = length(velocity)
     under = land.ground.waters.levels[ball['target'] - 1] - ball['position'][2]
@@ -69,44 +69,44 @@ def skips(land, ball, velocity, heavy):
 
 
 @kernel
-def tell(land, ball, number, now, before, log):
+def log_water_impact(land, ball, number, now, before, log):
     """Log that the ball met water."""
     event = next_event(log)
     event['time'] = now
     event['ball'] = number
-    event['kind'] = WET
-    put(event['position'], vector(ball['position']))
-    put(event['normal'], (0.0, 0.0, 1.0))
-    put(event['velocity_before'], before[0])
-    put(event['velocity_after'], vector(ball['velocity']))
-    put(event['spin_before'], before[1])
-    put(event['spin_after'], vector(ball['spin']))
-    put(event['impulse'], scale(land.ball.mass, sub(vector(ball['velocity']), before[0])))
+    event['kind'] = WATER_HIT
+    store(event['position'], load(ball['position']))
+    store(event['normal'], (0.0, 0.0, 1.0))
+    store(event['velocity_before'], before[0])
+    store(event['velocity_after'], load(ball['velocity']))
+    store(event['spin_before'], before[1])
+    store(event['spin_after'], load(ball['spin']))
+    store(event['impulse'], scale(land.ball.mass, sub(load(ball['velocity']), before[0])))
 
 
 @kernel
-def emerge(land, ball):
+def leave_water(land, ball):
     """Let a ball that has risen above the surface be out of the water: a light one, or one sent up."""
     if ball['position'][2] > land.ground.waters.levels[ball['water'] - 1] and ball['velocity'][2] > 0.0:
         ball['water'] = 0
 
 
 @kernel
-def is_over(land, ball):
+def has_ended_in_water(land, ball):
     """Whether a ball in water touches ground, or is so slow that it goes on sinking or floats."""
     if ball['water'] == 0 or not moves(ball['phase']):
         return False
     if ball['phase'] != FLIGHT:
         return True
-    v = vector(ball['velocity'])
+    v = load(ball['velocity'])
     depth = land.ground.waters.levels[ball['water'] - 1] - ball['position'][2]
-    slow = dot(v, v) < SLOW * SLOW
+    slow = dot(v, v) < SINKING_SPEED * SINKING_SPEED
     return depth > DEEPEST or slow and (depth > DEEP * land.ball.radius or v[2] >= 0.0)
 
 
 @kernel
-def drown(ball):
+def sink(ball):
     """Let the ball's way end in the water. Writes phase and motion."""
     ball['phase'] = WATER
-    put(ball['velocity'], ZERO)
-    put(ball['spin'], ZERO)
+    store(ball['velocity'], ZERO)
+    store(ball['spin'], ZERO)

@@ -3,8 +3,8 @@
 from typing import NamedTuple, Optional, Union
 
 from ..effects.wind import LogProfile
-from ..geometry.cup import CUP
-from ..geometry.solid import FLAGSTICK
+from ..geometry.cup import CUP_MATERIAL
+from ..geometry.solid import FLAGSTICK_MATERIAL
 from ..properties.air import Air
 from ..properties.material import Material
 
@@ -60,8 +60,8 @@ class Course(NamedTuple):
     tee: tuple = (0.0, 0.0)
     hole: Optional[tuple] = None
     flagstick: bool = True
-    cup: Material = CUP
-    stick: Material = FLAGSTICK
+    cup: Material = CUP_MATERIAL
+    stick: Material = FLAGSTICK_MATERIAL
     bounds: Optional[tuple] = None
     zones: tuple = ()
     obstacles: tuple = ()

@@ -30,7 +30,7 @@ class Limits(NamedTuple):
     path: float
 
 
-class Land(NamedTuple):
+class GroundScene(NamedTuple):
     """What counts for a ball in contact. Wind and the like don't, so it never recompiles for them."""
 
     ball: Ball
@@ -43,7 +43,7 @@ class Land(NamedTuple):
 class Model(NamedTuple):
     """A world for kernels: the land, and what acts in flight."""
 
-    land: Land
+    land: GroundScene
     effects: tuple
     method: NamedTuple
 
@@ -71,7 +71,7 @@ def build(course, records, preset):
     Types are cast here, once: a kernel would compile anew for an int in place of a float.
     """
     on_land = speaking(records, protocol.gravity, protocol.contact_normal)
-    return Model(Land(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
+    return Model(GroundScene(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
                       preset.limits),
                  in_flight(records), preset.method)
 

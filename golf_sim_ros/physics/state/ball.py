@@ -37,11 +37,11 @@ class Shot(NamedTuple):
 
 # What ends a piece of path. LAUNCH: the ball was put or struck, and its own state counts. MEETING: of balls.
 # SPLASH: in water, whose number is the target.
-STEP, HIT, BORDER, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, MEETING, SPLASH = range(9)
+STEP_END, GROUND_IMPACT, BORDER_CROSSING, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, BALL_IMPACT, WATER_ENTRY = range(9)
 
 NO_PART = -1
-JOINED, PILED = 1, 2  # of a ball in a pile: only just, or for a step
-REMEMBERED = 12  # contacts of a ball in a pile whose impulses are remembered
+JOINED, STEPPED = 1, 2  # of a ball in a pile: only just, or for a step
+MOST_STORED = 12  # contacts of a ball in a pile whose impulses are remembered
 
 BALL = np.dtype([
     # as of the last tick
@@ -57,7 +57,7 @@ BALL = np.dtype([
     ('piled', 'i8'), ('calm', 'i8'), ('held', 'i8'), ('braking', 'f8'), ('reach', 'f8'), ('watch', 'i8'),
     ('leans', 'i8'),
     # its contacts in the last step: how many, with what, their push and rub over mass [m/s]
-    ('pressing', 'i8'), ('pressed_by', 'i8', REMEMBERED), ('pressed', 'f8', (REMEMBERED, 4)),
+    ('pressing', 'i8'), ('pressed_by', 'i8', MOST_STORED), ('pressed', 'f8', (MOST_STORED, 4)),
     # number of the water that it is in, from 1; 0: none
     ('water', 'i8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`

@@ -7,7 +7,7 @@ import numpy as np
 from ..jit import kernel
 
 # Kinds of event.
-BOUNCE, SHOT_ENDS, BUMP, LOST, WET, GONE = range(6)
+BOUNCE, SHOT_ENDS, BALL_HIT, LOST, WATER_HIT, WENT_OUT = range(6)
 
 # Of a BUMP `material` is the number of the other ball.
 EVENT = np.dtype([

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The equations of motion: of a ball that flies, and of one that follows ground which is not flat."""
-from ..effects import flight_rates, pull, sinking
+from ..effects import flight_rates, gravity_at, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
-from ..mechanics.vector import ZERO, add, along, cross, dot, length, scale, sub, tangential, unit, vector
+from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, scale, sub, tangential, unit, load
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
-STILL = 1e-9  # m/s: slower than this is not moving
+LEAST_SPEED = 1e-9  # m/s: slower than this is not moving
 
 
 @kernel
@@ -17,7 +17,7 @@ def rates(model, ball, position, velocity, spin):
         return sinking(model.effects, position, velocity), ZERO
     if ball['phase'] == FLIGHT:
         return flight_rates(model.effects, model.land.ground, position, velocity, spin)
-    force, torque, _, _ = following_rates(model.land, ball, position, velocity, spin)
+    force, torque, _, _ = contact_rates(model.land, ball, position, velocity, spin)
     return force, torque
 
 
@@ -28,7 +28,7 @@ def material_under(land, ball):
 
 
 @kernel
-def brake(material, press, needed):
+def rolling_deceleration(material, press, needed):
     """Deceleration of a rolling ball: what rolling resistance asks for and grip can give.
 
     Friction must brake, and turn the ball as it speeds up downhill, for which that much grip is `needed`:
@@ -57,20 +57,20 @@ def pivoting(ball, material, press, drive, radius, inertia):
     It holds a ball that does not turn about the normal against the `drive` of a normal that turns.
     """
     most = unwinding(material, press, radius, inertia)
-    about = dot(vector(ball['spin']), vector(ball['normal']))
-    if abs(about) * radius > STILL:
+    about = dot(load(ball['spin']), load(ball['normal']))
+    if abs(about) * radius > LEAST_SPEED:
         return most if about > 0.0 else -most
     return max(min(drive, most), -most)
 
 
 @kernel
-def between_bounces(ball, normal, press, downhill):
+def micro_bounce_forces(ball, normal, press, downhill):
     """How hard a ball presses, and what drives it along the ground, while its last bounces go on."""
-    return ball['tail_press'] * press, add(downhill, tangential(vector(ball['tail_air']), normal))
+    return ball['tail_press'] * press, add(downhill, tangential(load(ball['tail_air']), normal))
 
 
 @shared
-def following_rates(land, ball, place, velocity, spin):
+def contact_rates(land, ball, place, velocity, spin):
     """Acceleration, rate of spin, press, and grip needed to roll, of a ball on ground which is not flat.
 
     A press below 0 means that the ground would have to pull.
@@ -84,7 +84,7 @@ def following_rates(land, ball, place, velocity, spin):
     k = land.ball.inertia
     _, normal = surfaces.nearest(land.ground, ball['support'], place)
     turn = surfaces.turn(land.ground, ball['support'], place, velocity)
-    press, downhill = surfaces.slope(pull(land.effects, place), normal)
+    press, downhill = surfaces.slope(gravity_at(land.effects, place), normal)
     material = material_under(land, ball)
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
@@ -92,24 +92,24 @@ def following_rates(land, ball, place, velocity, spin):
     tail = ball['tail_end'] > ball['begin']  # single impacts do not brake a rolling ball, nor does their sum
     load = press
     if tail:
-        load, downhill = between_bounces(ball, normal, press, downhill)
-    free = scale(1.0 / (1.0 + k), along(downhill, k * r * about, cross(normal, turn)))
+        load, downhill = micro_bounce_forces(ball, normal, press, downhill)
+    free = scale(1.0 / (1.0 + k), add_scaled(downhill, k * r * about, cross(normal, turn)))
     needed = length(sub(free, downhill))
-    resistance = 0.0 if tail else brake(material, press, needed)
-    if length(velocity) > STILL:
-        free = along(free, -resistance / length(velocity), velocity)
+    resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
+    if length(velocity) > LEAST_SPEED:
+        free = add_scaled(free, -resistance / length(velocity), velocity)
     else:  # it sets off as it is driven, if at all
         free = scale(max(1.0 - resistance / max(length(free), 1e-300), 0.0), free)
     friction = sub(free, downhill)
     if ball['phase'] == SLIDE:
         against = scale(-1.0, slip(velocity, spin, normal, r))
-        if length(against) <= STILL:
+        if length(against) <= LEAST_SPEED:
             against = friction
         friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
-    force = along(add(downhill, friction), -dot(velocity, turn), normal)
+    force = add_scaled(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
     if ball['phase'] == ROLL:  # the spin goes with the motion: resistance brakes it, too
-        torque = along(scale(1.0 / r, cross(normal, force)), about, turn)
+        torque = add_scaled(scale(1.0 / r, cross(normal, force)), about, turn)
     if material['pivot_friction'] > 0.0 and not tail:
-        torque = along(torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal)
+        torque = add_scaled(torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal)
     return force, torque, pressing, needed

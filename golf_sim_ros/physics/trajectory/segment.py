@@ -15,11 +15,11 @@ gives bounds for nothing, and short pieces keep full precision.
 from math import sqrt
 
 from ..jit import kernel
-from ..mechanics.vector import add, along, dot, put, sub, vector
+from ..mechanics.vector import add, add_scaled, dot, store, sub, load
 
 
 @kernel
-def lay(ball, way, velocity, rate, spin_rate):
+def fit_segment(ball, way, velocity, rate, spin_rate):
     """Write the piece's curve.
 
     `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and
@@ -28,18 +28,18 @@ def lay(ball, way, velocity, rate, spin_rate):
     """
     h = ball['span']
     w = ball['path']
-    w1 = along((0.0, 0.0, 0.0), h / 5.0, velocity[0])
-    w4 = along(way, -h / 5.0, velocity[1])
-    put(w[0], (0.0, 0.0, 0.0))
-    put(w[1], w1)
-    put(w[2], along(along(w1, h / 5.0, velocity[0]), h * h / 20.0, rate[0]))
-    put(w[3], along(along(w4, -h / 5.0, velocity[1]), h * h / 20.0, rate[1]))
-    put(w[4], w4)
-    put(w[5], way)
+    w1 = add_scaled((0.0, 0.0, 0.0), h / 5.0, velocity[0])
+    w4 = add_scaled(way, -h / 5.0, velocity[1])
+    store(w[0], (0.0, 0.0, 0.0))
+    store(w[1], w1)
+    store(w[2], add_scaled(add_scaled(w1, h / 5.0, velocity[0]), h * h / 20.0, rate[0]))
+    store(w[3], add_scaled(add_scaled(w4, -h / 5.0, velocity[1]), h * h / 20.0, rate[1]))
+    store(w[4], w4)
+    store(w[5], way)
     s = ball['twist']
-    put(s[0], vector(ball['spin']))
-    put(s[1], along(vector(ball['spin']), h / 3.0, spin_rate[0]))
-    put(s[2], along(vector(s[3]), -h / 3.0, spin_rate[1]))
+    store(s[0], load(ball['spin']))
+    store(s[1], add_scaled(load(ball['spin']), h / 3.0, spin_rate[0]))
+    store(s[2], add_scaled(load(s[3]), -h / 3.0, spin_rate[1]))
 
 
 @kernel
@@ -95,11 +95,11 @@ def spin(ball, time):
 
 
 @kernel
-def bend(ball, i):
+def acceleration_coefficient(ball, i):
     """Acceleration's Bernstein coefficient `i` (0 to 3) of the piece."""
     w = ball['path']
     k = 20.0 / (ball['span'] * ball['span'])
-    second = sub(sub(vector(w[i + 2]), vector(w[i + 1])), sub(vector(w[i + 1]), vector(w[i])))
+    second = sub(sub(load(w[i + 2]), load(w[i + 1])), sub(load(w[i + 1]), load(w[i])))
     return k * second[0], k * second[1], k * second[2]
 
 
@@ -108,7 +108,7 @@ def greatest_acceleration(ball):
     """Bound on the acceleration's size over the piece."""
     most = 0.0
     for i in range(4):
-        a = bend(ball, i)
+        a = acceleration_coefficient(ball, i)
         most = max(most, dot(a, a))
     return sqrt(most)
 
@@ -119,7 +119,7 @@ def greatest_speed(ball):
     w = ball['path']
     most = 0.0
     for i in range(5):
-        step = sub(vector(w[i + 1]), vector(w[i]))
+        step = sub(load(w[i + 1]), load(w[i]))
         most = max(most, dot(step, step))
     return 5.0 / ball['span'] * sqrt(most)
 
@@ -127,14 +127,14 @@ def greatest_speed(ball):
 @kernel
 def least_acceleration(ball, direction):
     """Bound from below on the acceleration along `direction` over the piece."""
-    least = dot(bend(ball, 0), direction)
+    least = dot(acceleration_coefficient(ball, 0), direction)
     for i in range(1, 4):
-        least = min(least, dot(bend(ball, i), direction))
+        least = min(least, dot(acceleration_coefficient(ball, i), direction))
     return least
 
 
 @kernel
-def span_along(ball, axis):
+def extent_along(ball, axis):
     """Least and greatest coordinate on `axis` that the piece can reach."""
     low = 0.0
     high = 0.0
@@ -146,16 +146,16 @@ def span_along(ball, axis):
 
 
 @kernel
-def heights(ball, normal, first):
+def plane_gap_coefficients(ball, normal, first):
     """Bernstein coefficients of the piece's height over a plane of `normal`, `first` at its start."""
     w = ball['path']
-    return (first, first + dot(vector(w[1]), normal), first + dot(vector(w[2]), normal),
-            first + dot(vector(w[3]), normal), first + dot(vector(w[4]), normal),
-            first + dot(vector(w[5]), normal))
+    return (first, first + dot(load(w[1]), normal), first + dot(load(w[2]), normal),
+            first + dot(load(w[3]), normal), first + dot(load(w[4]), normal),
+            first + dot(load(w[5]), normal))
 
 
 @kernel
-def height(g, span, time):
+def plane_gap(g, span, time):
     """Height `time` after the start of a piece of `span` and its rate, by its coefficients `g`."""
     t = time / span
     s = 1.0 - t
@@ -169,7 +169,7 @@ def height(g, span, time):
 
 
 @kernel
-def bends(g, span):
+def acceleration_bounds(g, span):
     """How fast the rate of a height with the coefficients `g` falls, and rises, over a piece at most."""
     a = g[2] - 2.0 * g[1] + g[0]
     b = g[3] - 2.0 * g[2] + g[1]
@@ -180,16 +180,16 @@ def bends(g, span):
 
 
 @kernel
-def stay(ball):
+def stay_in_place(ball):
     """Make the piece stand still with the ball's spin, for `span`."""
     ball['span'] = 1.0
-    put(ball['origin'], vector(ball['position']))
+    store(ball['origin'], load(ball['position']))
     ball['path'][:, :] = 0.0
     for i in range(4):
-        put(ball['twist'][i], vector(ball['spin']))
+        store(ball['twist'][i], load(ball['spin']))
 
 
 @kernel
-def corner(ball, i):
+def control_point(ball, i):
     """Control point `i` of the piece, in the course frame."""
-    return add(vector(ball['origin']), vector(ball['path'][i]))
+    return add(load(ball['origin']), load(ball['path'][i]))

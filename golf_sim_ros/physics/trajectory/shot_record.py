@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is kept of a shot on its way, for its result."""
 from ..jit import entry, kernel
-from ..mechanics.vector import ZERO, put, vector
+from ..mechanics.vector import ZERO, store, load
 from ..state.ball import FAILED, FLIGHT, LAUNCH, REST, moves
-from ..state.events import GONE, LOST, SHOT_ENDS, next_event
+from ..state.events import WENT_OUT, LOST, SHOT_ENDS, next_event
 from . import segment
 
-NOT_FINITE, ENDLESS = 1, 2  # why a shot fails
+NOT_FINITE, TOO_MUCH_WORK = 1, 2  # why a shot fails
 # A path may take so many segments a second: twice what a ball takes that several surfaces hold. What goes
 # beyond adds up, is made up for at that rate, and may come to so much; in `make hard` it comes to some 350.
-EASY = 10_000.0
-MOST_PIECES = 40_000
-TOP = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
+SUSTAINED_WORK = 10_000.0
+MOST_WORK = 40_000
+APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
 
 
 @kernel
-def keep_highest(ball):
+def update_apex(ball):
     """Keep the greatest height that the ball reaches in flight before its first contact. Writes highest."""
     if ball['phase'] != FLIGHT or ball['landed']:
         return
-    if segment.span_along(ball, 2)[1] <= ball['highest']:
+    if segment.extent_along(ball, 2)[1] <= ball['highest']:
         return
     time = ball['end'] - ball['begin']
     start = segment.position(ball, 0.0)[2]
@@ -34,7 +34,7 @@ def keep_highest(ball):
     for _ in range(50):  # regula falsi; an end that stays twice loses half of its weight (Illinois)
         apex = (low * falling - high * rising) / (falling - rising)
         speed = segment.velocity(ball, apex)[2]
-        if abs(speed) < TOP:
+        if abs(speed) < APEX_SPEED:
             break
         if speed > 0.0:
             falling *= 0.5 if moved > 0 else 1.0
@@ -50,21 +50,21 @@ def keep_highest(ball):
 
 
 @kernel
-def keep_launch(ball):
+def mark_moved_by_ball(ball):
     """Keep where a ball that nobody struck lay: there it goes back to where it is lost."""
     if not ball['playing'] and ball['phase'] == REST:
         ball['knocked'] = 1
-        put(ball['struck_at'], vector(ball['position']))
+        store(ball['struck_at'], load(ball['position']))
 
 
 @kernel
-def note_landing(ball, now):
+def record_landing(ball, now):
     """Keep where and how a struck ball first touches the ground. Writes landing."""
     if ball['playing'] and not ball['landed'] and ball['phase'] == FLIGHT:
         ball['landed'] = 1
         ball['landing'] = now
-        put(ball['landed_at'], vector(ball['position']))
-        put(ball['landing_velocity'], vector(ball['velocity']))
+        store(ball['landed_at'], load(ball['position']))
+        store(ball['landing_velocity'], load(ball['velocity']))
 
 
 @kernel
@@ -74,8 +74,8 @@ def end_shot(ball, number, now, kind, log):
     if moves(ball['phase']):
         ball['over_time'] = 1
         ball['phase'] = REST
-        put(ball['velocity'], ZERO)
-        put(ball['spin'], ZERO)
+        store(ball['velocity'], ZERO)
+        store(ball['spin'], ZERO)
     ball['playing'] = 0
     event = next_event(log)
     event['time'] = now
@@ -85,13 +85,13 @@ def end_shot(ball, number, now, kind, log):
 
 
 @kernel
-def fault(ball, now):
+def check_segment(ball, now):
     """Why the ball can't go on with the piece that it has got at `now`, or 0. Writes counted_from, pieces."""
     passed = max(now - ball['counted_from'], 0.0)
     ball['counted_from'] = now
-    ball['pieces'] = max(ball['pieces'] - EASY * passed, 0.0) + 1.0
-    if ball['pieces'] > MOST_PIECES:
-        return ENDLESS
+    ball['pieces'] = max(ball['pieces'] - SUSTAINED_WORK * passed, 0.0) + 1.0
+    if ball['pieces'] > MOST_WORK:
+        return TOO_MUCH_WORK
     w = ball['path']
     s = ball['twist']
     total = ball['end'] - ball['begin'] + ball['span']
@@ -116,52 +116,52 @@ def fail(ball, number, now, why, log):
     ball['failed'] = why
     ball['phase'] = FAILED
     ball['knocked'] = 0
-    put(ball['position'], vector(ball['struck_at']))
-    put(ball['velocity'], ZERO)
-    put(ball['spin'], ZERO)
+    store(ball['position'], load(ball['struck_at']))
+    store(ball['velocity'], ZERO)
+    store(ball['spin'], ZERO)
     end_shot(ball, number, now, SHOT_ENDS if ball['playing'] else LOST, log)
 
 
 @kernel
-def keep_end(ball, end):
+def copy_result(ball, end):
     """Write what is told of a ball's shot into `end`, an `ENDED` record."""
     end['phase'] = ball['phase']
     end['support'] = ball['support']
     end['material'] = ball['material']
-    put(end['position'], vector(ball['position']))
+    store(end['position'], load(ball['position']))
     end['struck'] = ball['struck']
-    put(end['struck_at'], vector(ball['struck_at']))
-    put(end['launch'], vector(ball['launch']))
-    put(end['launch_spin'], vector(ball['launch_spin']))
+    store(end['struck_at'], load(ball['struck_at']))
+    store(end['launch'], load(ball['launch']))
+    store(end['launch_spin'], load(ball['launch_spin']))
     end['highest'] = ball['highest']
     end['landed'] = ball['landed']
     end['landing'] = ball['landing']
-    put(end['landed_at'], vector(ball['landed_at']))
-    put(end['landing_velocity'], vector(ball['landing_velocity']))
+    store(end['landed_at'], load(ball['landed_at']))
+    store(end['landing_velocity'], load(ball['landing_velocity']))
     end['bounces'] = ball['bounces']
     end['ended'] = ball['ended']
     end['over_time'] = ball['over_time']
 
 
 @kernel
-def tell_gone(ball, number, now, log):
+def log_out_of_bounds(ball, number, now, log):
     """Log that the ball has gone out of bounds."""
     event = next_event(log)
     event['time'] = now
     event['ball'] = number
-    event['kind'] = GONE
+    event['kind'] = WENT_OUT
     event['material'] = ball['material'] if ball['support'] >= 0 else -1
-    put(event['position'], vector(ball['position']))
-    put(event['normal'], vector(ball['normal']))
-    put(event['velocity_before'], vector(ball['velocity']))
-    put(event['velocity_after'], vector(ball['velocity']))
-    put(event['spin_before'], vector(ball['spin']))
-    put(event['spin_after'], vector(ball['spin']))
-    put(event['impulse'], ZERO)
+    store(event['position'], load(ball['position']))
+    store(event['normal'], load(ball['normal']))
+    store(event['velocity_before'], load(ball['velocity']))
+    store(event['velocity_after'], load(ball['velocity']))
+    store(event['spin_before'], load(ball['spin']))
+    store(event['spin_after'], load(ball['spin']))
+    store(event['impulse'], ZERO)
 
 
 @entry
-def tee_off(ball, now):
+def begin_shot(ball, now):
     """Begin a shot with the ball's velocity and spin at `now`. Writes what is kept of a shot."""
     ball['playing'] = 1
     ball['knocked'] = 0
@@ -169,9 +169,9 @@ def tee_off(ball, now):
     ball['end'] = now
     ball['ending'] = LAUNCH
     ball['highest'] = ball['position'][2]
-    put(ball['struck_at'], vector(ball['position']))
-    put(ball['launch'], vector(ball['velocity']))
-    put(ball['launch_spin'], vector(ball['spin']))
+    store(ball['struck_at'], load(ball['position']))
+    store(ball['launch'], load(ball['velocity']))
+    store(ball['launch_spin'], load(ball['spin']))
     ball['landed'] = 0
     ball['bounces'] = 0
     ball['over_time'] = 0
