@@ -67,12 +67,12 @@ def played(batch, strikes, progress=None):
 
 def ends(play, scene, strikes):
     """Ends of `strikes`, an `ENDED` array. Where plain Python refuses to calculate, that shot has failed."""
-    model, balls, gusts, crowd, log = scene
+    model, balls, gusts, work, log = scene
     try:
         with np.errstate(all='ignore'):
-            return play(model, balls, strikes, gusts, crowd, log)
+            return play(model, balls, strikes, gusts, work, log)
     except (ArithmeticError, ValueError):
-        clear_set(crowd)
+        clear_set(work)
         if len(strikes) > 1:
             return np.concatenate([ends(play, scene, part) for part in np.array_split(strikes, 2)])
     ball, end = balls[0].copy(), np.empty(1, ENDED)

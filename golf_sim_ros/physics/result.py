@@ -103,7 +103,7 @@ def summary(balls, hole, lies):
     told['carry'], told['carry_side'] = np.where(landed, way(balls, 'landed_at'), 0.0)
     told['total'], told['side'] = way(balls, 'position')
     told['apex'] = np.where(landed | (balls['phase'] == Phase.FLIGHT) | (balls['phase'] == Phase.OUT),
-                            balls['highest'] - balls['struck_at'][:, 2], 0.0)
+                            balls['apex'] - balls['struck_at'][:, 2], 0.0)
     told['flight_time'] = np.where(landed, balls['landing'] - balls['struck'], 0.0)
     told['duration'] = balls['ended'] - balls['struck']
     told['lie'] = np.array([*lies, ''])[np.where(balls['support'] >= 0, balls['material'], -1)]

@@ -99,7 +99,7 @@ class World:
         self._engine = compiled() if engine == 'compiled' else PYTHON
         self._program = None  # of the compiled engine, if that may take over
         self._rebuild()
-        self._crowd = new_workspace(len(self.names), 'ball_ball' in self.effects_on)
+        self._workspace = new_workspace(len(self.names), 'ball_ball' in self.effects_on)
         if engine == 'auto':
             self._program = Program.of(self.program)
         self._tee_up()
@@ -157,12 +157,12 @@ class World:
 
     def measure(self):
         """Keep account from now on of where the engine's time goes; see `spent`."""
-        self._crowd = self._crowd._replace(spent=np.zeros(len(STAGES), np.int64))
+        self._workspace = self._workspace._replace(spent=np.zeros(len(STAGES), np.int64))
 
     @property
     def spent(self):
         """Processor's cycles that the engine has spent since `measure`, by stage; `cycles()` counts all."""
-        return dict(zip(STAGES, self._crowd.spent.tolist()))
+        return dict(zip(STAGES, self._workspace.spent.tolist()))
 
     @property
     def moving(self):
@@ -201,7 +201,7 @@ class World:
         return self._types(self._records)
 
     def _types(self, records):
-        types = map(type, (*records, self._preset.method, *self._model.land.ground.kinds, self._crowd))
+        types = map(type, (*records, self._preset.method, *self._model.land.ground.kinds, self._workspace))
         return ' '.join(f'{kind.__module__}.{kind.__qualname__}' for kind in types)
 
     def build(self, urgent=False):
@@ -278,12 +278,12 @@ class World:
             raise NoPlace(f'position {position} is taken by another ball')
         self._settle_clock()
         self._let_lean_no_more(number)
-        self._crowd.count[TREE_AGE] = len(self.names)
+        self._workspace.count[TREE_AGE] = len(self.names)
         if ball['phase'] == HOLED:  # the next hole begins
             trial['strokes'] = 0
         self._balls[number] = trial
         ball['phase'], ball['end'] = REST, inf
-        for name in ('playing', 'knocked', 'water', 'leans', 'piled', 'tail_end'):
+        for name in ('shot_active', 'moved_by_ball', 'water', 'sleeps_on_ball', 'time_stepping', 'micro_bounce_end'):
             ball[name] = 0
         ball['struck'], ball['struck_at'] = self._now, ball['position']
 
@@ -291,11 +291,11 @@ class World:
         """Let the balls set off that lean on one at rest: it is taken away."""
         balls = self._balls
         apart = np.linalg.norm(balls['position'] - balls['position'][number], axis=1)
-        leaning = (balls['phase'] == REST) & (balls['leans'] != 0) & (
+        leaning = (balls['phase'] == REST) & (balls['sleeps_on_ball'] != 0) & (
             apart <= 2.0 * (self._model.land.ball.radius + RESTING_GAP))
         leaning[number] = False
         balls['end'][leaning], balls['ending'][leaning] = self._now, LAUNCH
-        balls['knocked'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
+        balls['moved_by_ball'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
 
     def _put_down(self, ball, position):
         """Put a `ball` record at x, y, z, or on the ground at x, y; `NoPlace` where it can't be."""
@@ -356,7 +356,7 @@ class World:
             if self._program:
                 self._take_over()
             self._now = 0.0
-            self._crowd.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
+            self._workspace.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
 
     def set_wind(self, wind):
         """Let the air move with `wind` [m/s] at 10 m over the ground from now on.
@@ -379,7 +379,7 @@ class World:
         flying = self._balls['phase'] == FLIGHT
         self._balls['end'][flying] = self._now
         self._balls['ending'][flying] = STEP_END
-        self._balls['rated'][flying] = -1.0
+        self._balls['last_stage_time'][flying] = -1.0
 
     def advance(self, dt):
         """Let `dt` seconds pass.
@@ -432,12 +432,12 @@ class World:
             run = partial(self._program.timed, run)
         try:
             with np.errstate(all='ignore'):
-                return run(self._model, self._balls, until, self._crowd, self._log)
+                return run(self._model, self._balls, until, self._workspace, self._log)
         except (ArithmeticError, ValueError):
-            at_hand = self._crowd.members[:self._crowd.count[INVOLVED]].tolist()
+            at_hand = self._workspace.involved[:self._workspace.count[INVOLVED]].tolist()
             if not at_hand:
                 raise
-        self._fail(at_hand, min(until, self._crowd.ends[at_hand[0]]))
+        self._fail(at_hand, min(until, self._workspace.segment_ends[at_hand[0]]))
         return LOG_FULL
 
     def _fail(self, numbers, now):
@@ -447,9 +447,9 @@ class World:
             if number == numbers[0] or moves(ball['phase']):
                 fail(ball, number, now, NOT_FINITE, self._log)
                 ball['end'] = inf
-            self._crowd.places[number] = -1
-        self._crowd.count[:TREE_AGE] = 0, 0
-        self._crowd.count[TREE_AGE] = len(self.names)
+            self._workspace.involved_index[number] = -1
+        self._workspace.count[:TREE_AGE] = 0, 0
+        self._workspace.count[TREE_AGE] = len(self.names)
 
     def _told(self, start):
         """Reports of the logged events; `start` is the world's time at the paths' zero."""
@@ -484,10 +484,10 @@ class World:
         What moves begins new pieces, or it would not see the ball in its way; piles look often enough.
         """
         ball = self._balls[number]
-        self._crowd.count[TREE_AGE] = len(self.names)  # where it was is not where it will be
+        self._workspace.count[TREE_AGE] = len(self.names)  # where it was is not where it will be
         is_held = ball['phase'] == FAILED or three(ball['struck_at']) == self._pegs[number]
         ball['phase'], ball['end'] = REST, inf
-        ball['playing'] = ball['knocked'] = ball['water'] = ball['leans'] = ball['piled'] = 0
+        ball['shot_active'] = ball['moved_by_ball'] = ball['water'] = ball['sleeps_on_ball'] = ball['time_stepping'] = 0
         for x, y, z, lower in spots(three(ball['struck_at']), self._model.land.ball.radius):
             if self._is_free(number, (x, y, z)):
                 start = x, y, z + lower
@@ -498,7 +498,7 @@ class World:
             self._engine.put_down(self._model, ball, three(ball['struck_at']), 0.0)
         if not is_held:
             ball['end'], ball['ending'] = now, LAUNCH
-        moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL)) & (self._balls['piled'] == 0)
+        moving = np.isin(self._balls['phase'], (FLIGHT, SLIDE, ROLL)) & (self._balls['time_stepping'] == 0)
         self._balls['end'][moving], self._balls['ending'][moving] = now, STEP_END
 
     def _is_free(self, number, place):
@@ -534,7 +534,7 @@ class World:
         self.set_wind(state['wind'])
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
-        self._crowd.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
+        self._workspace.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
 
     def reset(self):
         """Put all balls back to the start.
@@ -549,11 +549,11 @@ class World:
         self._let_happen(self._now)
         aborted = []
         for ball, name in zip(self._balls, self.names):
-            if ball['playing']:
+            if ball['shot_active']:
                 ball['ended'] = self._now
                 aborted.append(result(ball, name, self.time, self.course.hole, self._materials))
         self._balls['phase'] = REST
-        self._balls['playing'] = 0
+        self._balls['shot_active'] = 0
         self._balls['support'] = NO_PART
         self._tee_up()
         return aborted

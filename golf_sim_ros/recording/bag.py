@@ -10,6 +10,7 @@ import numpy as np
 from ..optional_packages import how_to_get
 from .bag_file import BagError, raw_messages
 from .journal import JournalError, opened
+from .journal_format import current
 
 __all__ = ['BagError', 'read_bag', 'Recording', 'Strike', 'Track']
 
@@ -196,7 +197,7 @@ def by_topic(parts):
 
 def entries(told, path):
     """Entries of a journal, each once, in the order of their numbers."""
-    found = [{**entry_of(message, path), 'received': received} for received, message in told]
+    found = [{**current(entry_of(message, path)), 'received': received} for received, message in told]
     return sorted(once(found, lambda entry: entry['entry']), key=lambda entry: entry['entry'])
 
 

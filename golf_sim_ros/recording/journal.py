@@ -12,6 +12,7 @@ from zlib import crc32
 
 from .. import __version__
 from ..physics.jit.cache import source_key
+from .journal_format import FORMAT
 from .json_format import Written, text
 
 SEAL = ', "crc32": '
@@ -41,7 +42,7 @@ class Journal:
     def config(self, world, parameters, start):
         """What the play is made of. `start`: ROS time [ns] at which simulated time began."""
         course = {'name': world.course.name, 'path': world.course.path, 'digest': world.course.digest}
-        self.note('config', 0, version=__version__, course=course, parameters=parameters, start=start,
+        self.note('config', 0, format=FORMAT, version=__version__, course=course, parameters=parameters, start=start,
                   made_with=made_with())
 
     def strike(self, tick, shot, name, strike, state):

@@ -76,4 +76,4 @@ def test_what_two_surfaces_hold_adds_nothing_up():
     world.strike('ball', ALONG, SPIN)
     for _ in range(2):
         assert world.advance(0.03) == []
-        assert 0 < world._balls['pieces'][0] < 100
+        assert 0 < world._balls['segments_spent'][0] < 100

@@ -36,7 +36,7 @@ def place(monkeypatch):
 
 
 def made(path, mode=0o755, owner=None):
-    """`path` as a folder of that mode and owner, whatever the umask."""
+    """`position_coefficients` as a folder of that mode and owner, whatever the umask."""
     path.mkdir(parents=True, exist_ok=True)
     path.chmod(mode)
     if owner is not None:

@@ -300,7 +300,7 @@ def test_a_pile_goes_on_from_its_state_to_the_bit():
     worlds = [poured(IN_A_BOWL, 20, 'standard') for _ in range(2)]
     worlds[0].advance(0.6)
     worlds[1].restore(json.loads(json.dumps(worlds[0].state())))
-    leaning = [ball['piled'] for ball in worlds[0].state()['balls'].values()]
+    leaning = [ball['time_stepping'] for ball in worlds[0].state()['balls'].values()]
     assert sum(map(bool, leaning)) > 10
     for _ in range(20):
         for world in worlds:

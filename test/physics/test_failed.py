@@ -85,7 +85,7 @@ def test_air_that_is_no_number_ends_the_shot_as_failed_and_the_ball_goes_back():
     assert world.failures == 1 and world.last_failure.startswith('ball: its motion')
 
 
-@pytest.mark.parametrize('field', ['origin', 'path', 'twist'])
+@pytest.mark.parametrize('field', ['origin', 'position_coefficients', 'spin_coefficients'])
 @pytest.mark.parametrize('number', [nan, inf])
 def test_a_state_that_is_no_number_ends_its_own_shot_only(field, number):
     world = World(level(TURF), ('red', 'blue'))
@@ -133,8 +133,8 @@ def test_a_collision_that_is_no_number_is_told_with_null():
 
 def test_a_ball_whose_record_holds_no_numbers_comes_back_from_the_journal_to_the_bit():
     ball = np.zeros((), BALL)
-    ball['phase'], ball['end'], ball['span'], ball['tail_end'] = Phase.FLIGHT, 1.5, 1.5, inf
-    ball['stages'][3, 4], ball['piled'] = nan, 1
+    ball['phase'], ball['end'], ball['span'], ball['micro_bounce_end'] = Phase.FLIGHT, 1.5, 1.5, inf
+    ball['stages'][3, 4], ball['time_stepping'] = nan, 1
     again = restored(json.loads(ball_text(ball)))
     for name in BALL.names:
         assert np.array_equal(again[name], ball[name], equal_nan=True), name
@@ -144,6 +144,6 @@ def test_a_ball_from_an_older_journal_has_zeros_in_what_it_lacks():
     ball = np.zeros((), BALL)
     ball['phase'], ball['end'], ball['begin'] = Phase.FLIGHT, 1.5, 0.5
     values = json.loads(ball_text(ball))
-    for name in ('failed', 'counted_from', 'pieces'):
+    for name in ('failed', 'counted_until', 'segments_spent'):
         del values[name]
-    assert restored(values)['pieces'] == 0
+    assert restored(values)['segments_spent'] == 0

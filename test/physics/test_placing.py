@@ -214,7 +214,7 @@ def test_a_weak_shot_far_away_comes_to_rest_in_few_pieces(place, accuracy):
     world.place('ball', place)
     world.strike('ball', (-1.2e-4, 9e-4, -4e-4))
     assert world.advance(10.0)[-1].status == 'at_rest'
-    assert world._balls['pieces'][0] < 100
+    assert world._balls['segments_spent'][0] < 100
 
 
 def test_strikes_are_counted_from_the_tee():

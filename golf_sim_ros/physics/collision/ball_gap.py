@@ -115,30 +115,30 @@ def time_of_impact_of_balls(a, b, bend, radius, begin, until):
 @kernel
 def is_left_to_time_stepping(ball, other, radius, now):
     """Whether the contact of a piled ball with another one is left to the pile."""
-    if ball['piled'] == STEPPED and other['piled'] == STEPPED:
+    if ball['time_stepping'] == STEPPED and other['time_stepping'] == STEPPED:
         return True
     gap, rate, _ = gap_between(ball, other, radius, now)
-    return gap < RESTING_GAP and (other['phase'] == REST or other['piled'] and rate > -RESTING_APPROACH)
+    return gap < RESTING_GAP and (other['phase'] == REST or other['time_stepping'] and rate > -RESTING_APPROACH)
 
 
 @kernel
 def within_contact_reach(ball):
     """Whether a ball of a pile touches nothing on its piece but what its contacts hold it off."""
-    return ball['piled'] == STEPPED and length(load(ball['path'][5])) <= ball['reach']
+    return ball['time_stepping'] == STEPPED and length(load(ball['position_coefficients'][5])) <= ball['contact_reach']
 
 
 @ball_interactions.first_ball_contact.register(MultiBallWorkspace)
-def _meeting(crowd, balls, i, radius, now):
-    return first_ball_impact(crowd, balls, i, radius, now)
+def _meeting(work, balls, i, radius, now):
+    return first_ball_impact(work, balls, i, radius, now)
 
 
 @ball_interactions.interrupt_segments.register(MultiBallWorkspace)
-def _stand_in_the_way(crowd, balls, i, radius, now):
-    interrupt_segments_at(crowd, balls, i, radius, now)
+def _stand_in_the_way(work, balls, i, radius, now):
+    interrupt_segments_at(work, balls, i, radius, now)
 
 
 @shared
-def interrupt_segments_at(crowd, balls, i, radius, now):
+def interrupt_segments_at(work, balls, i, radius, now):
     """End pieces that others were laid through ball `i`, which rests now. Writes end, ending, target, ends.
 
     They were laid while it still moved, and looked no further than to the end of its piece.
@@ -149,11 +149,11 @@ def interrupt_segments_at(crowd, balls, i, radius, now):
     reach = (radius, radius, radius)
     low = sub(place, reach)
     high = add(place, reach)
-    at = next_node(crowd, 0, low, high)
+    at = next_node(work, 0, low, high)
     while at >= 0:
-        j = crowd.nodes[at]['ball']
+        j = work.nodes[at]['ball']
         other = balls[j]
-        if moves(other['phase']) and other['end'] > now and not (other['piled']
+        if moves(other['phase']) and other['end'] > now and not (other['time_stepping']
                                                                  and is_left_to_time_stepping(other, ball, radius, now)):
             bend = stray + acceleration_deviation(other, usual)
             time, touches = time_of_impact_of_balls(other, ball, bend, radius, now, other['end'])
@@ -161,30 +161,30 @@ def interrupt_segments_at(crowd, balls, i, radius, now):
                 other['end'] = time
                 other['ending'] = BALL_IMPACT if touches else STEP_END
                 other['target'] = i
-                crowd.ends[j] = time
-        at = next_node(crowd, at + 1, low, high)
+                work.segment_ends[j] = time
+        at = next_node(work, at + 1, low, high)
 
 
 @kernel
-def is_over_many_stepped(crowd, balls, low, high):
+def is_over_many_stepped(work, balls, low, high):
     """Whether many balls of a pile come into the box from `low` to `high`."""
     found = 0
-    at = next_node(crowd, 0, low, high)
+    at = next_node(work, 0, low, high)
     while at >= 0 and found < MANY_STEPPED:
-        found += balls[crowd.nodes[at]['ball']]['piled'] == STEPPED
-        at = next_node(crowd, at + 1, low, high)
+        found += balls[work.nodes[at]['ball']]['time_stepping'] == STEPPED
+        at = next_node(work, at + 1, low, high)
     return found == MANY_STEPPED
 
 
 @shared
-def first_ball_impact(crowd, balls, i, radius, now):
+def first_ball_impact(work, balls, i, radius, now):
     """First time at which ball `i`'s piece touches another ball, which, and whether it really does."""
     ball = balls[i]
     until = ball['end']
-    if within_contact_reach(ball) and not ball['watch']:
+    if within_contact_reach(ball) and not ball['watches_neighbours']:
         return until, -1, False
     low, high = swept_box(ball, 0.0, until - now, radius)
-    while is_long(low, high, SHORT_BOX * radius) and is_over_many_stepped(crowd, balls, low, high):
+    while is_long(low, high, SHORT_BOX * radius) and is_over_many_stepped(work, balls, low, high):
         until = now + 0.5 * (until - now)
         low, high = swept_box(ball, 0.0, until - now, radius)
     usual, stray = acceleration_at_start(ball)
@@ -192,12 +192,12 @@ def first_ball_impact(crowd, balls, i, radius, now):
     best = until
     who = -1
     hit = False
-    at = next_node(crowd, 0, low, high)
+    at = next_node(work, 0, low, high)
     while at >= 0:
-        j = crowd.nodes[at]['ball']
+        j = work.nodes[at]['ball']
         # What is in one pile, or asleep beside it, is held by its contacts.
         other = balls[j]
-        if j != i and other['phase'] != HOLED and not (ball['piled'] and is_left_to_time_stepping(ball, other, radius, now)):
+        if j != i and other['phase'] != HOLED and not (ball['time_stepping'] and is_left_to_time_stepping(ball, other, radius, now)):
             last = min(best, other['end'])
             bend = stray + acceleration_deviation(other, usual)
             if last >= now and not cannot_touch(here, other, bend, radius, now, last):
@@ -206,5 +206,5 @@ def first_ball_impact(crowd, balls, i, radius, now):
                     best = time
                     who = j
                     hit = touches
-        at = next_node(crowd, at + 1, low, high)
+        at = next_node(work, at + 1, low, high)
     return best, who, hit

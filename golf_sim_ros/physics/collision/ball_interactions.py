@@ -12,66 +12,71 @@ from ..jit import generic
 
 
 class SingleBallWorkspace(NamedTuple):
-    """Scratch of an engine whose balls do not touch each other.
+    """Workspace of an engine whose balls do not touch each other.
 
-    ``ends``: when each ball's piece ends; ``members``, ``contacts``: of the impact at hand; ``places``: index
-    among the members of each ball, or -1; ``flow``: change of each member's velocity; ``before``: its motion
-    before the impact; ``count``: of members, of contacts, of new pieces since the tree was built; and whether
-    any balls may be asleep that lean on others; ``spent``: cycles by stage, or empty where nobody asks.
+    ``segment_ends``: when each ball's segment ends; ``involved``: balls of the event at hand;
+    ``involved_index``: where each ball stands among those, or -1; ``contacts``: theirs; ``contact_counts``:
+    active contacts of each ball; ``velocity_change`` [m/s] by the impulses that are tried;
+    ``position_change`` [m] that takes overlaps away; ``motion_before`` an impact and ``solved_motion`` of a time
+    step: velocity and spin; ``count``: of involved balls, of contacts, of segments since the tree was built,
+    and whether any ball may be asleep on another; ``spent``: cycles by stage, or empty where nobody asks.
     """
 
-    ends: np.ndarray
-    members: np.ndarray
-    places: np.ndarray
-    flow: np.ndarray
-    before: np.ndarray
+    segment_ends: np.ndarray
+    involved: np.ndarray
+    involved_index: np.ndarray
     contacts: np.ndarray
+    contact_counts: np.ndarray
+    velocity_change: np.ndarray
+    position_change: np.ndarray
+    motion_before: np.ndarray
+    solved_motion: np.ndarray
     count: np.ndarray
     spent: np.ndarray
 
 
 @generic
-def prepare_broad_phase(crowd, balls, radius):
+def prepare_broad_phase(work, balls, radius):
     """Make ready for advancing."""
 
 
 @generic
-def update_tree(crowd, balls, i, radius):
+def update_tree(work, balls, i, radius):
     """Take note of ball `i`'s new piece."""
 
 
 @generic
-def first_ball_contact(crowd, balls, i, radius, now):
+def first_ball_contact(work, balls, i, radius, now):
     """First time at which ball `i`'s piece touches another ball, which, and whether it really does."""
     return balls[i]['end'], -1, False
 
 
 @generic
-def interrupt_segments(crowd, balls, i, radius, now):
+def interrupt_segments(work, balls, i, radius, now):
     """Let balls that move end their pieces where they meet ball `i`, which rests from now on."""
 
 
 @generic
-def collect_ball_contacts(crowd, land, balls, i, now):
+def collect_ball_contacts(work, land, balls, i, now):
     """Add contacts of member `i` with other balls; they become members."""
 
 
 @generic
-def resolve_ball_impact(crowd, land, balls, i, now, log):
+def resolve_ball_impact(work, land, balls, i, now, log):
     """Let ball `i` collide with the ball that it meets, and all that touch. Writes motion; logs impacts."""
 
 
 @generic
-def step_together(crowd, land, balls, i, now):
+def step_together(work, land, balls, i, now):
     """Let a ball that others hold move with them. Returns whether it is such a ball."""
     return False
 
 
 @generic
-def wake(crowd, balls, radius, now):
+def wake(work, balls, radius, now):
     """Wake the sleepers that lean on members; those wake others as they move. Writes members, phases."""
 
 
 @generic
-def log_ball_impacts(crowd, balls, now, log):
+def log_ball_impacts(work, balls, now, log):
     """Log the impacts of balls among the contacts."""

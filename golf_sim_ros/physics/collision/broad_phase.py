@@ -24,23 +24,23 @@ LEAF_MARGIN = 1e-3  # m around the box of a ball of a pile, which seldom goes fa
 
 
 @ball_interactions.prepare_broad_phase.register(MultiBallWorkspace)
-def _prepare(crowd, balls, radius):
-    crowd.count[ASLEEP] = 0
+def _prepare(work, balls, radius):
+    work.count[ASLEEP] = 0
     for i in range(len(balls)):
-        if balls[i]['leans']:
-            crowd.count[ASLEEP] = 1
-    if crowd.count[TREE_AGE] >= len(balls):
-        rebuild(crowd, balls, radius)
+        if balls[i]['sleeps_on_ball']:
+            work.count[ASLEEP] = 1
+    if work.count[TREE_AGE] >= len(balls):
+        rebuild(work, balls, radius)
 
 
 @kernel
 def segment_box(ball, radius, room):
     """Box of the ball's piece, with `room` around it."""
-    if moves(ball['phase']) and ball['piled'] != STEPPED:
+    if moves(ball['phase']) and ball['time_stepping'] != STEPPED:
         return swept_box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
     half = (radius + room, radius + room, radius + room)
     here = load(ball['origin']) if moves(ball['phase']) else load(ball['position'])
-    there = add_scaled(here, 1.0, load(ball['path'][5])) if moves(ball['phase']) else here
+    there = add_scaled(here, 1.0, load(ball['position_coefficients'][5])) if moves(ball['phase']) else here
     low = min(here[0], there[0]), min(here[1], there[1]), min(here[2], there[2])
     high = max(here[0], there[0]), max(here[1], there[1]), max(here[2], there[2])
     return add_scaled(low, -1.0, half), add_scaled(high, 1.0, half)
@@ -49,7 +49,7 @@ def segment_box(ball, radius, room):
 @kernel
 def write_leaf(ball, node, radius):
     """Write the box of the ball's piece into its leaf; in a pile with room for some steps."""
-    low, high = segment_box(ball, radius, LEAF_MARGIN if ball['piled'] == STEPPED else 0.0)
+    low, high = segment_box(ball, radius, LEAF_MARGIN if ball['time_stepping'] == STEPPED else 0.0)
     store(node['low'], low)
     store(node['high'], high)
 
@@ -57,7 +57,7 @@ def write_leaf(ball, node, radius):
 @kernel
 def leaf_serves(ball, node, radius):
     """Whether the box in the leaf of a ball of a pile still serves, and is not far too large."""
-    if ball['piled'] != STEPPED:
+    if ball['time_stepping'] != STEPPED:
         return False
     low, high = segment_box(ball, radius, 0.0)
     for k in range(3):
@@ -68,44 +68,44 @@ def leaf_serves(ball, node, radius):
 
 
 @kernel
-def refit(crowd, i):
+def refit(work, i):
     """Write the box of node `i` from those below it."""
-    node = crowd.nodes[i]
-    one = crowd.nodes[i + 1]
-    other = crowd.nodes[one['skip']]
+    node = work.nodes[i]
+    one = work.nodes[i + 1]
+    other = work.nodes[one['skip']]
     for k in range(3):
         node['low'][k] = min(one['low'][k], other['low'][k])
         node['high'][k] = max(one['high'][k], other['high'][k])
 
 
 @shared
-def rebuild(crowd, balls, radius):
+def rebuild(work, balls, radius):
     """Build the tree anew, whatever it was before. Writes nodes, leaves, order, count."""
-    crowd.count[TREE_AGE] = 0
+    work.count[TREE_AGE] = 0
     for i in range(len(balls)):
-        crowd.order[i] = i
-    crowd.nodes[0]['first'] = 0
-    crowd.nodes[0]['count'] = len(balls)
-    crowd.nodes[0]['parent'] = -1
-    for i in range(len(crowd.nodes)):
-        node = crowd.nodes[i]
+        work.order[i] = i
+    work.nodes[0]['first'] = 0
+    work.nodes[0]['count'] = len(balls)
+    work.nodes[0]['parent'] = -1
+    for i in range(len(work.nodes)):
+        node = work.nodes[i]
         n = node['count']
         node['skip'] = i + 2 * n - 1
         node['ball'] = -1
         if n == 1:
-            number = crowd.order[node['first']]
+            number = work.order[node['first']]
             node['ball'] = number
-            crowd.leaves[number] = i
+            work.leaves[number] = i
             write_leaf(balls[number], node, radius)
             continue
         half = n // 2
-        partition(crowd.order, balls, node['first'], node['first'] + n, node['first'] + half)
-        set_node(crowd.nodes[i + 1], i, node['first'], half)
-        set_node(crowd.nodes[i + 2 * half], i, node['first'] + half, n - half)
-    for back in range(1, len(crowd.nodes) + 1):
-        i = len(crowd.nodes) - back
-        if crowd.nodes[i]['ball'] < 0:
-            refit(crowd, i)
+        partition(work.order, balls, node['first'], node['first'] + n, node['first'] + half)
+        set_node(work.nodes[i + 1], i, node['first'], half)
+        set_node(work.nodes[i + 2 * half], i, node['first'] + half, n - half)
+    for back in range(1, len(work.nodes) + 1):
+        i = len(work.nodes) - back
+        if work.nodes[i]['ball'] < 0:
+            refit(work, i)
 
 
 @kernel
@@ -153,32 +153,32 @@ def partition(order, balls, first, last, middle):
 
 
 @ball_interactions.update_tree.register(MultiBallWorkspace)
-def _note(crowd, balls, i, radius):
-    update_leaf(crowd, balls, i, radius)
+def _note(work, balls, i, radius):
+    update_leaf(work, balls, i, radius)
 
 
 @shared
-def update_leaf(crowd, balls, i, radius):
+def update_leaf(work, balls, i, radius):
     """Tell ball `i`'s new piece. Writes the tree."""
-    leaf = crowd.leaves[i]
-    if leaf_serves(balls[i], crowd.nodes[leaf], radius):
+    leaf = work.leaves[i]
+    if leaf_serves(balls[i], work.nodes[leaf], radius):
         return
-    crowd.count[TREE_AGE] += 1
-    if crowd.count[TREE_AGE] > len(balls):
-        rebuild(crowd, balls, radius)
+    work.count[TREE_AGE] += 1
+    if work.count[TREE_AGE] > len(balls):
+        rebuild(work, balls, radius)
         return
-    write_leaf(balls[i], crowd.nodes[leaf], radius)
-    at = crowd.nodes[leaf]['parent']
+    write_leaf(balls[i], work.nodes[leaf], radius)
+    at = work.nodes[leaf]['parent']
     while at >= 0:
-        refit(crowd, at)
-        at = crowd.nodes[at]['parent']
+        refit(work, at)
+        at = work.nodes[at]['parent']
 
 
 @kernel
-def next_node(crowd, at, low, high):
+def next_node(work, at, low, high):
     """First leaf from node `at` on that meets the box from `low` to `high`, or -1."""
-    while at < len(crowd.nodes):
-        node = crowd.nodes[at]
+    while at < len(work.nodes):
+        node = work.nodes[at]
         if (node['low'][0] > high[0] or node['high'][0] < low[0] or node['low'][1] > high[1]
                 or node['high'][1] < low[1] or node['low'][2] > high[2] or node['high'][2] < low[2]):
             at = node['skip']

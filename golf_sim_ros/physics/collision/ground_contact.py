@@ -111,9 +111,9 @@ def penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, ho
 def time_of_impact(ground, part, ball, radius, begin, until):
     """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then.
 
-    Writes pieces.
+    Writes segments_spent.
     """
-    work = LOOK * surfaces.effort(ground, part)
+    cost = LOOK * surfaces.effort(ground, part)
     hollow = surfaces.hollow(ground, part)
     fastest = greatest_speed(ball) if hollow > 0.0 else 0.0
     span = ball['span']
@@ -126,7 +126,7 @@ def time_of_impact(ground, part, ball, radius, begin, until):
         bend = greatest_acceleration(ball)
     time = begin
     for step in range(MOST_ADVANCES):
-        ball['pieces'] += work
+        ball['segments_spent'] += cost
         if level:
             gap, rate = plane_gap(over, span, time)
         else:
@@ -176,7 +176,7 @@ def first_ground_contact(ground, ball, radius, until, on):
     `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
     under it, where surfaces in that plane, and edges met tangentially, are seams and no obstacles;
     ON_EDGE the edge that supports it; ON_CURVE the smooth surface; CAUGHT all that holds it.
-    Writes pieces.
+    Writes segments_spent.
     """
     begin = 0.0
     stretch = until
@@ -184,7 +184,7 @@ def first_ground_contact(ground, ball, radius, until, on):
     while begin < until:
         end = min(begin + stretch, until)
         low, high = swept_box(ball, begin, end, radius)
-        ball['pieces'] += LOOK
+        ball['segments_spent'] += LOOK
         if is_long(low, high, SHORT_BOX * radius) and has_many_parts(ground, low, high):
             stretch = 0.5 * (end - begin)
             continue
@@ -218,7 +218,7 @@ def first_in_box(ground, ball, radius, begin, end, low, high, on):
     foot = add_scaled(load(ball['position']), -radius, load(ball['normal']))
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
-        ball['pieces'] += LOOK
+        ball['segments_spent'] += LOOK
         if not is_ignored(ground, part, ball, radius, foot, best, on):
             time, touches = time_of_impact(ground, part, ball, radius, begin, best)
             if touches and on == ON_FLAT:
@@ -260,7 +260,7 @@ def holds_wedged(ground, part, ball, radius):
     One of a pile that another ball has just hit may be too fast to wait for the pile.
     """
     distance, normal = surfaces.nearest(ground, part, load(ball['position']))
-    if not ball['piled']:
+    if not ball['time_stepping']:
         return distance - radius <= HOLDING_GAP
     return distance - radius <= RESTING_GAP and dot(normal, velocity(ball, 0.0)) > -GENTLE_APPROACH
 

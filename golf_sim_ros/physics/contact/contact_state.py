@@ -44,7 +44,7 @@ def remove_slip(land, ball):
 @kernel
 def in_micro_bounces(ball, now):
     """Whether the ball's last, tiny bounces are still going on."""
-    return ball['tail_end'] > now
+    return ball['micro_bounce_end'] > now
 
 
 @kernel

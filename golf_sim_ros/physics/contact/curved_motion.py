@@ -60,19 +60,19 @@ def curved_segment(model, ball, now):
     h = min(h, time_to_unwind(land, ball, press, turn))
     h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
     if in_micro_bounces(ball, now):
-        h = min(h, ball['tail_end'] - now)
+        h = min(h, ball['micro_bounce_end'] - now)
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
-    work = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
+    cost = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
     for _ in range(CORRECTIONS):
-        ball['pieces'] += work
+        ball['segments_spent'] += cost
         ball['step'] = h
         step(model, ball)
         following = ball['step']
         h = ball['span']
         held = project_to_ground(land, ball)
         if held <= 0.0:
-            end = add_scaled(place, 1.0, load(ball['path'][5]))
-            held = press_with_air(model, ball, end, end_velocity(ball), load(ball['twist'][3]))
+            end = add_scaled(place, 1.0, load(ball['position_coefficients'][5]))
+            held = press_with_air(model, ball, end, end_velocity(ball), load(ball['spin_coefficients'][3]))
         left = step_share_to_change(land, ball, v, slipping, holding, held)
         if left == 1.0:
             left = step_share_on_ground(land, ball)
@@ -182,7 +182,7 @@ def time_to_change(land, ball, force, press):
 def step_share_to_change(land, ball, v, slipping, holding, held):
     """Share of the step that goes no further than to where the equations change, or 1.
 
-    ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the end.
+    ``holding``, ``held_by``: the press that keeps the ball on the ground, at the start and at the end.
     """
     if held < -LIFTS * holding:
         return max(holding / (holding - held), 0.01)
@@ -205,14 +205,14 @@ def gained(land, ball):
     step tells so.
     """
     place = load(ball['position'])
-    way = load(ball['path'][5])
+    way = load(ball['position_coefficients'][5])
     v0, v1 = load(ball['velocity']), end_velocity(ball)
-    w0, w1 = load(ball['spin']), load(ball['twist'][3])
+    w0, w1 = load(ball['spin']), load(ball['spin_coefficients'][3])
     inertia = land.ball.inertia * land.ball.radius * land.ball.radius
     weight = scale(0.5, add(gravity_at(land.effects, place), gravity_at(land.effects, add(place, way))))
     gain = 0.5 * (dot(v1, v1) - dot(v0, v0) + inertia * (dot(w1, w1) - dot(w0, w0))) - dot(weight, way)
     if in_micro_bounces(ball, ball['begin']):
-        gain -= length(load(ball['tail_air'])) * ball['span'] * max(length(v0), length(v1))
+        gain -= length(load(ball['micro_bounce_air'])) * ball['span'] * max(length(v0), length(v1))
     return gain
 
 
@@ -224,17 +224,17 @@ def project_to_ground(land, ball):
     """
     r = land.ball.radius
     x0 = load(ball['position'])
-    way = load(ball['path'][5])
+    way = load(ball['position_coefficients'][5])
     distance, normal = surfaces.nearest(land.ground, ball['support'], add_scaled(x0, 1.0, way))
     if ball['span'] > SHORT_STEP:
         way = add_scaled(way, r - distance, normal)
     end = add_scaled(x0, 1.0, way)
     velocity = end_velocity(ball)
     velocity = add_scaled(velocity, -dot(velocity, normal), normal)
-    spin = load(ball['twist'][3])
+    spin = load(ball['spin_coefficients'][3])
     if ball['phase'] == ROLL:
         spin = add_scaled(scale(1.0 / r, cross(normal, velocity)), dot(spin, normal), normal)
-    store(ball['twist'][3], spin)
+    store(ball['spin_coefficients'][3], spin)
     force, torque, press, _ = contact_rates(land, ball, end, velocity, spin)
     first = ball['stages'][0]
     fit_segment(ball, way, (load(ball['velocity']), velocity), (load(first[3:6]), force),
@@ -245,13 +245,13 @@ def project_to_ground(land, ball):
 @kernel
 def end_velocity(ball):
     """Velocity at the end of the piece."""
-    w = ball['path']
+    w = ball['position_coefficients']
     return scale(5.0 / ball['span'], sub(load(w[5]), load(w[4])))
 
 
 @kernel
 def slip_at_end(land, ball):
     """Slip of the ball at the end of its piece."""
-    place = add_scaled(load(ball['origin']), 1.0, load(ball['path'][5]))
+    place = add_scaled(load(ball['origin']), 1.0, load(ball['position_coefficients'][5]))
     _, normal = surfaces.nearest(land.ground, ball['support'], place)
-    return slip(end_velocity(ball), load(ball['twist'][3]), normal, land.ball.radius)
+    return slip(end_velocity(ball), load(ball['spin_coefficients'][3]), normal, land.ball.radius)

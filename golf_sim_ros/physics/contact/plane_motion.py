@@ -55,7 +55,7 @@ def plane_segment(land, ball, now):
         turning = 0.0
     if tail:  # single impacts do not brake a pivoting ball, nor does their sum
         unwinding = 0.0
-        horizon = min(horizon, ball['tail_end'] - now)
+        horizon = min(horizon, ball['micro_bounce_end'] - now)
     if unwinding > 0.0 and turning != 0.0:
         horizon = min(horizon, abs(turning) / unwinding)
     end = glide_end(motion, horizon)
@@ -120,7 +120,7 @@ def fit_glide(land, ball, motion, coast, q, turning, unwinding):
     winding = scale(-sign * unwinding if turning != 0.0 else 0.0, normal)
     ball['span'] = time
     store(ball['origin'], load(ball['position']))
-    store(ball['twist'][3], add_scaled(scale(1.0 / r, cross(normal, add_scaled(v1, -keep, u1))), sign * left, normal))
+    store(ball['spin_coefficients'][3], add_scaled(scale(1.0 / r, cross(normal, add_scaled(v1, -keep, u1))), sign * left, normal))
     fit_segment(ball, way, (v0, v1), (a0, a1),
         (add(scale(1.0 / r, cross(normal, add_scaled(a0, -keep, du0))), winding),
          add(scale(1.0 / r, cross(normal, add_scaled(a1, -keep, du1))), winding)))

@@ -33,51 +33,51 @@ EVENTS_A_BALL = 3  # that one piece's end can log, but for impacts of balls
 
 
 @entry
-def advance(model, balls, until, crowd, log):
-    """Advance `balls` to the time `until` [s]. Writes balls, crowd and log.
+def advance(model, balls, until, work, log):
+    """Advance `balls` to the time `until` [s]. Writes balls, work and log.
 
     Returns DONE, or LOG_FULL when `log` must be emptied before going on: it is full, or a shot has ended,
     which is to be told before anything else happens to its ball.
     """
-    return run_events(borrowed(model), borrowed(balls), until, borrowed(crowd), borrowed(log))
+    return run_events(borrowed(model), borrowed(balls), until, borrowed(work), borrowed(log))
 
 
 @shared
-def run_events(model, balls, until, crowd, log):
+def run_events(model, balls, until, work, log):
     """`advance`, of borrowed records."""
     for i in range(len(balls)):
-        crowd.ends[i] = balls[i]['end']
-    ball_interactions.prepare_broad_phase(crowd, balls, model.land.ball.radius)
-    since = count_cycles(crowd, IN_BROAD_PHASE, cycles() if len(crowd.spent) else 0)
+        work.segment_ends[i] = balls[i]['end']
+    ball_interactions.prepare_broad_phase(work, balls, model.land.ball.radius)
+    since = count_cycles(work, IN_BROAD_PHASE, cycles() if len(work.spent) else 0)
     while True:
-        i = next_event_ball(crowd, until)
+        i = next_event_ball(work, until)
         if i < 0:
             break
         if log.count[1] or 2 * log.count[0] > len(log.events):
             return LOG_FULL
         now = balls[i]['end']
-        since = count_cycles(crowd, IN_BROAD_PHASE, since)
+        since = count_cycles(work, IN_BROAD_PHASE, since)
         stage = IN_CONTACT if balls[i]['ending'] == GROUND_IMPACT else stage_of(balls[i])
-        add_to_set(crowd, i)
-        resolve(model, balls, i, crowd, log)
-        since = count_cycles(crowd, stage, since)
-        for k in range(crowd.count[INVOLVED]):
-            end_if_over(model, balls[crowd.members[k]], crowd.members[k], now, log)
-            plan_or_fail(model, balls[crowd.members[k]], crowd.members[k], now, log)
-            since = note_segment(balls, crowd.members[k], model.land.ball.radius, crowd, since)
-        for k in range(crowd.count[INVOLVED]):
-            limit_by_balls(balls, crowd.members[k], model.land.ball.radius, now, crowd)
-        clear_set(crowd)
+        add_to_set(work, i)
+        resolve(model, balls, i, work, log)
+        since = count_cycles(work, stage, since)
+        for k in range(work.count[INVOLVED]):
+            end_if_over(model, balls[work.involved[k]], work.involved[k], now, log)
+            plan_or_fail(model, balls[work.involved[k]], work.involved[k], now, log)
+            since = note_segment(balls, work.involved[k], model.land.ball.radius, work, since)
+        for k in range(work.count[INVOLVED]):
+            limit_by_balls(balls, work.involved[k], model.land.ball.radius, now, work)
+        clear_set(work)
     for i in range(len(balls)):
         read_segment(balls[i], until)
     return DONE
 
 
 @kernel
-def resolve(model, balls, i, crowd, log):
+def resolve(model, balls, i, work, log):
     """Bring ball `i` to the end of its piece and let happen what ends it.
 
-    Other balls that this moves become members of the crowd.
+    Other balls that this moves become members of the work.
     """
     ball = balls[i]
     now = ball['end']
@@ -89,25 +89,25 @@ def resolve(model, balls, i, crowd, log):
             leave_water(model.land, ball)
     if ending == LAUNCH:
         launch(model, ball, now)
-        ball_interactions.wake(crowd, balls, model.land.ball.radius, now)
+        ball_interactions.wake(work, balls, model.land.ball.radius, now)
     elif ending == WATER_ENTRY:
         resolve_water_impact(model.land, ball, i, now, log)
     elif ball['water'] > 0 and ending == GROUND_IMPACT:
         sink(ball)
     elif ending == GROUND_IMPACT:
-        before = ball['tail_end']
-        resolve_ground_impact(model.land, balls, i, now, crowd, log)
-        if ball['tail_end'] > max(before, now):
+        before = ball['micro_bounce_end']
+        resolve_ground_impact(model.land, balls, i, now, work, log)
+        if ball['micro_bounce_end'] > max(before, now):
             apply_air_to_micro_bounces(model, ball, now)
     elif ending == BALL_IMPACT:
-        ball_interactions.resolve_ball_impact(crowd, model.land, balls, i, now, log)
-        ball_interactions.wake(crowd, balls, model.land.ball.radius, now)
+        ball_interactions.resolve_ball_impact(work, model.land, balls, i, now, log)
+        ball_interactions.wake(work, balls, model.land.ball.radius, now)
     elif ending == BORDER_CROSSING:
         cross_border(model.land, ball, now)
-    elif ball_interactions.step_together(crowd, model.land, balls, i, now):
+    elif ball_interactions.step_together(work, model.land, balls, i, now):
         pass
     elif is_wedged(ball):
-        step_wedged(model.land, balls, i, now, crowd)
+        step_wedged(model.land, balls, i, now, work)
     elif ball['phase'] != FLIGHT:
         ahead = unit(load(ball['velocity']), ZERO)
         _, normal = surfaces.under(model.land.ground, ball['support'], load(ball['position']), ahead)
@@ -136,10 +136,10 @@ def end_if_over(model, ball, number, now, log):
     if ball['phase'] == OUT and before != OUT:
         log_out_of_bounds(ball, number, now, log)
     is_lost = ball['phase'] == OUT or ball['phase'] == WATER
-    if is_lost and ball['knocked'] and not ball['playing']:
-        ball['knocked'] = 0
+    if is_lost and ball['moved_by_ball'] and not ball['shot_active']:
+        ball['moved_by_ball'] = 0
         end_shot(ball, number, now, LOST, log)
-    if ball['playing'] and (not moves(ball['phase']) or ball['ending'] == TIME_LIMIT):
+    if ball['shot_active'] and (not moves(ball['phase']) or ball['ending'] == TIME_LIMIT):
         end_shot(ball, number, now, SHOT_ENDS, log)
 
 
@@ -155,12 +155,12 @@ def plan_or_fail(model, ball, number, now, log):
 
 
 @kernel
-def note_segment(balls, i, radius, crowd, since):
-    """Take note of ball `i`'s new piece. Writes crowd. Returns the cycles at its end; see `count_cycles`."""
-    since = count_cycles(crowd, stage_of(balls[i]), since)
-    crowd.ends[i] = balls[i]['end']
-    ball_interactions.update_tree(crowd, balls, i, radius)
-    return count_cycles(crowd, IN_BROAD_PHASE, since)
+def note_segment(balls, i, radius, work, since):
+    """Take note of ball `i`'s new piece. Writes work. Returns the cycles at its end; see `count_cycles`."""
+    since = count_cycles(work, stage_of(balls[i]), since)
+    work.segment_ends[i] = balls[i]['end']
+    ball_interactions.update_tree(work, balls, i, radius)
+    return count_cycles(work, IN_BROAD_PHASE, since)
 
 
 @kernel
@@ -170,12 +170,12 @@ def stage_of(ball):
 
 
 @kernel
-def count_cycles(crowd, stage, since):
+def count_cycles(work, stage, since):
     """Book the cycles from `since` until now on a stage, if somebody asks. Returns now. Writes spent."""
-    if len(crowd.spent) == 0:
+    if len(work.spent) == 0:
         return since
     now = cycles()
-    crowd.spent[stage] += now - since
+    work.spent[stage] += now - since
     return now
 
 
@@ -186,19 +186,19 @@ def cycles_now():
 
 
 @kernel
-def limit_by_balls(balls, i, radius, now, crowd):
+def limit_by_balls(balls, i, radius, now, work):
     """End ball `i`'s piece where it meets another ball. Writes end, ending, target."""
     ball = balls[i]
     if moves(ball['phase']):
-        time, other, hit = ball_interactions.first_ball_contact(crowd, balls, i, radius, now)
+        time, other, hit = ball_interactions.first_ball_contact(work, balls, i, radius, now)
         if time < ball['end'] or hit:
             ball['end'] = time
             ball['ending'] = BALL_IMPACT if hit else STEP_END
             ball['target'] = other
-            crowd.ends[i] = time
-            ball_interactions.update_tree(crowd, balls, i, radius)
+            work.segment_ends[i] = time
+            ball_interactions.update_tree(work, balls, i, radius)
     elif ball['phase'] == REST:
-        ball_interactions.interrupt_segments(crowd, balls, i, radius, now)
+        ball_interactions.interrupt_segments(work, balls, i, radius, now)
 
 
 @kernel
@@ -213,7 +213,7 @@ def is_out(ground, ball, radius):
 
     It is out if all of it is (Rules of Golf 18.2a(2)); one that is still moving may come back.
     """
-    if not (ball['playing'] or ball['knocked']) or ball['phase'] != REST and ball['phase'] != WATER:
+    if not (ball['shot_active'] or ball['moved_by_ball']) or ball['phase'] != REST and ball['phase'] != WATER:
         return False
     return surfaces.out_of_bounds(ground, ball['position'][0], ball['position'][1]) >= radius
 
@@ -226,14 +226,14 @@ def is_in_hole(model, ball):
 
 
 @entry
-def play_all(model, ball, strikes, gusts, crowd, log):
+def play_all(model, ball, strikes, gusts, work, log):
     """Play shots one after the other, each from the state in `ball`. Returns their ends, an `ENDED` array.
 
     `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
-    the strike, the first 0, and the wind from then on; `crowd` and `log` are scratch.
+    the strike, the first 0, and the wind from then on; `work` and `log` are scratch.
     """
     model = borrowed(model)
-    crowd = borrowed(crowd)
+    work = borrowed(work)
     log = borrowed(log)
     strikes = borrowed(strikes)
     gusts = borrowed(gusts)
@@ -247,10 +247,10 @@ def play_all(model, ball, strikes, gusts, crowd, log):
         begin_shot(one[0], 0.0)
         set_wind(model.effects, load(gusts[0, 1:4]))
         gust = 1
-        while one[0]['playing']:
+        while one[0]['shot_active']:
             log.count[:] = 0
             until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
-            if run_events(model, one, until, crowd, log) == DONE and gust < len(gusts):
+            if run_events(model, one, until, work, log) == DONE and gust < len(gusts):
                 set_wind(model.effects, load(gusts[gust, 1:4]))
                 end_now(one[0], until)
                 gust += 1
@@ -264,4 +264,4 @@ def end_now(ball, now):
     if ball['phase'] == FLIGHT:
         ball['end'] = now
         ball['ending'] = STEP_END
-        ball['rated'] = -1.0
+        ball['last_stage_time'] = -1.0

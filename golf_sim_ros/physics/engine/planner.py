@@ -46,12 +46,12 @@ def plan_next_segment(model, ball, now):
         return
     if ball['phase'] == FLIGHT:
         on = IN_THE_AIR
-        if ball['piled'] == STEPPED:
+        if ball['time_stepping'] == STEPPED:
             straight_segment(ball, next_step_time(now) - now)
         else:
             step(model, ball)
     until = ball['span']
-    if ball['piled']:
+    if ball['time_stepping']:
         on = WEDGED
         until = min(until, next_step_time(now) - now)
     elif is_wedged(ball):
@@ -86,17 +86,17 @@ def plan_next_segment(model, ball, now):
 
 @kernel
 def end_segment(model, ball, now, until):
-    """Let the piece end after `until`, or when time ends it. Writes end, ending, stuck."""
+    """Let the piece end after `until`, or when time ends it. Writes end, ending, zero_length_segments."""
     ball['end'] = now + max(until, 0.0)
-    if ball['piled'] and ball['ending'] == STEP_END and ball['end'] > next_step_time(now) - 1e-9:
+    if ball['time_stepping'] and ball['ending'] == STEP_END and ball['end'] > next_step_time(now) - 1e-9:
         ball['end'] = next_step_time(now)  # the same number for all
-    ball['stuck'] = ball['stuck'] + 1 if ball['end'] <= now else 0
-    if ball['stuck'] > MANY_ZERO_LENGTH and ball['stuck'] % 2 == 0:
-        times = ball['stuck'] - MANY_ZERO_LENGTH
+    ball['zero_length_segments'] = ball['zero_length_segments'] + 1 if ball['end'] <= now else 0
+    if ball['zero_length_segments'] > MANY_ZERO_LENGTH and ball['zero_length_segments'] % 2 == 0:
+        times = ball['zero_length_segments'] - MANY_ZERO_LENGTH
         most = max(model.land.limits.path, LEAST_STRAY) / (length(load(ball['velocity'])) + 1e-3)
         ball['end'] = now + min(MOMENT * times * times, most, ball['span'])
         ball['ending'] = STEP_END
-    if ball['playing'] and ball['end'] > ball['struck'] + LONGEST_SHOT:
+    if ball['shot_active'] and ball['end'] > ball['struck'] + LONGEST_SHOT:
         ball['end'] = ball['struck'] + LONGEST_SHOT
         ball['ending'] = TIME_LIMIT
 
@@ -134,10 +134,10 @@ def apply_air_to_micro_bounces(model, ball, now):
                                  load(ball['spin']))
     press = -dot(weight, normal)
     longer = press / max(-dot(force, normal), LEAST_PRESS * press)
-    time = longer * (ball['tail_end'] - now)
-    ball['tail_end'] = now + time
-    ball['tail_press'] /= longer
-    store(ball['tail_air'], tangential(sub(force, weight), normal))
+    time = longer * (ball['micro_bounce_end'] - now)
+    ball['micro_bounce_end'] = now + time
+    ball['micro_bounce_load'] /= longer
+    store(ball['micro_bounce_air'], tangential(sub(force, weight), normal))
     store(ball['spin'], add_scaled(load(ball['spin']), time, torque))
     if ball['phase'] == ROLL:
         remove_slip(model.land, ball)
@@ -155,10 +155,10 @@ def flat_ground_goes_on(land, ball):
 def launch(model, ball, now):
     """Decide how a ball sets off from its state: in the air, or along the ground under it."""
     ball['step'] = 0.0
-    ball['stalled'] = 0
-    ball['piled'] = ball['leans'] = 0
+    ball['rapid_impacts'] = 0
+    ball['time_stepping'] = ball['sleeps_on_ball'] = 0
     ball['water'] = 0
-    ball['tail_end'] = now
+    ball['micro_bounce_end'] = now
     ball['phase'] = FLIGHT
     lift = dot(load(ball['velocity']), load(ball['normal']))
     if ball['support'] >= 0 and abs(lift) <= LEAST_SPEED:

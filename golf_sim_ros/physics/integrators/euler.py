@@ -26,7 +26,7 @@ def _step(method, model, ball):
     ball['span'] = h
     ball['step'] = method.length
     store(ball['origin'], load(ball['position']))
-    store(ball['twist'][3], add_scaled(load(ball['spin']), h, torque))
+    store(ball['spin_coefficients'][3], add_scaled(load(ball['spin']), h, torque))
     # A straight line at the new velocity, as such an engine moves the ball.
     fit_segment(ball, scale(h, v1), (v1, v1), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), (torque, torque))
     ball['ending'] = STEP_END

@@ -118,7 +118,7 @@ def error_in_metres(ball, weights, h):
 @kernel
 def start(model, ball, last):
     """Write the first stage: where the piece goes on from a whole step, that step's `last` one."""
-    goes_on = ball['step'] > 0.0 and ball['rated'] == ball['begin'] and not ball['piled']
+    goes_on = ball['step'] > 0.0 and ball['last_stage_time'] == ball['begin'] and not ball['time_stepping']
     if ball['phase'] == FLIGHT and goes_on:
         ball['stages'][0] = ball['stages'][last]
     else:
@@ -179,9 +179,9 @@ def step(method, model, ball):
     first = ball['stages'][0]
     final = ball['stages'][last]
     ball['span'] = h
-    ball['rated'] = -1.0 if brief else ball['begin'] + h  # another table has its last stage elsewhere
+    ball['last_stage_time'] = -1.0 if brief else ball['begin'] + h  # another table has its last stage elsewhere
     store(ball['origin'], load(ball['position']))
-    store(ball['twist'][3], add_scaled(load(ball['spin']), 1.0, (change[6], change[7], change[8])))
+    store(ball['spin_coefficients'][3], add_scaled(load(ball['spin']), 1.0, (change[6], change[7], change[8])))
     fit_segment(ball, (change[0], change[1], change[2]), (load(first[0:3]), load(final[0:3])),
         (load(first[3:6]), load(final[3:6])), (load(first[6:9]), load(final[6:9])))
     ball['ending'] = STEP_END

@@ -21,77 +21,77 @@ LEAST_LOGGED_APPROACH = 0.1  # m/s of approach: slower contacts are not collisio
 
 
 @ball_interactions.resolve_ball_impact.register(MultiBallWorkspace)
-def _bump(crowd, land, balls, i, now, log):
-    collide_balls(land, balls, i, now, crowd, log)
+def _bump(work, land, balls, i, now, log):
+    collide_balls(land, balls, i, now, work, log)
 
 
 @shared
-def collide_balls(land, balls, i, now, crowd, log):
+def collide_balls(land, balls, i, now, work, log):
     """Let ball `i` collide with the ball that it meets, and all that touch. Writes motion; logs impacts."""
     j = balls[i]['target']
-    contact_set.add_to_set(crowd, j)
+    contact_set.add_to_set(work, j)
     contact_set.synchronize(balls[j], now)
     gap, rate, _ = gap_between(balls[i], balls[j], land.ball.radius, now)
     if gap > contact_set.SIMULTANEOUS_GAP:
         return  # the other one has got another path meanwhile
     stalls = now - balls[i]['begin'] < RAPID_BALL_IMPACT
-    piled = balls[i]['piled'] or balls[j]['piled']
+    piled = balls[i]['time_stepping'] or balls[j]['time_stepping']
     if piled:  # the pile passes on what it is given
-        contact_set.add_ball_contact(land, balls, i, j, crowd, now)
+        contact_set.add_ball_contact(land, balls, i, j, work, now)
     else:
-        contact_set.collect_contacts(land, balls, crowd, now, 0)
-    resolve_contact_set(land, balls, now, crowd, 0, log)
-    resume_motion(land, balls, now, crowd, 0)
+        contact_set.collect_contacts(land, balls, work, now, 0)
+    resolve_contact_set(land, balls, now, work, 0, log)
+    resume_motion(land, balls, now, work, 0)
     for ball in (balls[i], balls[j]):
-        if ball['piled']:
+        if ball['time_stepping']:
             if rate <= -GENTLE_APPROACH:  # it hits on, and does not wait for the pile
                 return_to_events(ball)
             continue
-        ball['stalled'] = ball['stalled'] + 1 if stalls else 0
-        if moves(ball['phase']) and (piled and rate > -GENTLE_APPROACH or ball['stalled'] > MANY_BALL_IMPACTS):
+        ball['rapid_impacts'] = ball['rapid_impacts'] + 1 if stalls else 0
+        if moves(ball['phase']) and (piled and rate > -GENTLE_APPROACH or ball['rapid_impacts'] > MANY_BALL_IMPACTS):
             begin_time_stepping(ball)
 
 
 @shared
-def resolve_contact_set(land, balls, now, crowd, first, log):
+def resolve_contact_set(land, balls, now, work, first, log):
     """Let the members collide at all contacts. Writes motion; logs impacts, on ground from row `first` on."""
-    for k in range(crowd.count[INVOLVED]):
-        mark_moved_by_ball(balls[crowd.members[k]])
-    store_motion_before(balls, crowd)
-    simultaneous_impact.solve_reflections(land, balls, crowd)
-    ball_interactions.log_ball_impacts(crowd, balls, now, log)
-    for n in range(first, crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
-        if row['b'] < 0 and row['approach'] > LEAST_LOGGED_APPROACH:
+    for k in range(work.count[INVOLVED]):
+        mark_moved_by_ball(balls[work.involved[k]])
+    store_motion_before(balls, work)
+    simultaneous_impact.solve_reflections(land, balls, work)
+    ball_interactions.log_ball_impacts(work, balls, now, log)
+    for n in range(first, work.count[CONTACTS]):
+        row = work.contacts[n]
+        if row['b'] < 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
             ball = balls[row['a']]
             ball['bounces'] += 1
-            event = log_contact_impact(balls, now, row, crowd, log)
+            event = log_contact_impact(balls, now, row, work, log)
             event['kind'] = BOUNCE
             event['material'] = contact_material_number(land, ball, row['part'], load(row['normal']))
             event['sort'] = surfaces.sort(land.ground, row['part'])
 
 
 @ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
-def _tell_bumps(crowd, balls, now, log):
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
-        if row['b'] >= 0 and row['approach'] > LEAST_LOGGED_APPROACH:
-            event = log_contact_impact(balls, now, row, crowd, log)
+def _tell_bumps(work, balls, now, log):
+    for n in range(work.count[CONTACTS]):
+        row = work.contacts[n]
+        if row['b'] >= 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
+            event = log_contact_impact(balls, now, row, work, log)
             event['kind'] = BALL_HIT
             event['material'] = row['b']
 
 
 @kernel
-def store_motion_before(balls, crowd):
-    """Keep the members' motion before the impact, for telling. Writes before."""
-    for k in range(crowd.count[INVOLVED]):
-        i = crowd.members[k]
-        store(crowd.before[i, 0:3], load(balls[i]['velocity']))
-        store(crowd.before[i, 3:6], load(balls[i]['spin']))
+def store_motion_before(balls, work):
+    """Keep the members' motion before the impact, for telling. Writes motion_before."""
+    for k in range(work.count[INVOLVED]):
+        i = work.involved[k]
+        store(work.motion_before[i, 0:3], load(balls[i]['velocity']))
+        store(work.motion_before[i, 3:6], load(balls[i]['spin']))
 
 
 @kernel
-def log_contact_impact(balls, now, row, crowd, log):
+def log_contact_impact(balls, now, row, work, log):
     """Log an impact of a contact's ball. Returns the event, which lacks what was hit."""
     ball = balls[row['a']]
     event = next_event(log)
@@ -99,26 +99,26 @@ def log_contact_impact(balls, now, row, crowd, log):
     event['ball'] = row['a']
     store(event['position'], load(ball['position']))
     store(event['normal'], load(row['normal']))
-    store(event['velocity_before'], load(crowd.before[row['a'], 0:3]))
+    store(event['velocity_before'], load(work.motion_before[row['a'], 0:3]))
     store(event['velocity_after'], load(ball['velocity']))
-    store(event['spin_before'], load(crowd.before[row['a'], 3:6]))
+    store(event['spin_before'], load(work.motion_before[row['a'], 3:6]))
     store(event['spin_after'], load(ball['spin']))
     store(event['impulse'], load(row['impulse']))
     return event
 
 
 @kernel
-def resume_motion(land, balls, now, crowd, first):
+def resume_motion(land, balls, now, work, first):
     """Let the members from number `first` on go on as they now move. Writes phases and contacts."""
-    for k in range(first, crowd.count[INVOLVED]):
-        ball = balls[crowd.members[k]]
+    for k in range(first, work.count[INVOLVED]):
+        ball = balls[work.involved[k]]
         if not moves(ball['phase']):
             if length(load(ball['velocity'])) + length(load(ball['spin'])) == 0.0:
                 continue
-            ball['tail_end'] = now
-            ball['leans'] = 0
+            ball['micro_bounce_end'] = now
+            ball['sleeps_on_ball'] = 0
         lift = dot(load(ball['velocity']), load(ball['normal']))
-        if ball['piled']:
+        if ball['time_stepping']:
             ball['phase'] = FLIGHT
         elif ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= LEAST_SPEED:
             ball['phase'] = SLIDE

@@ -37,128 +37,128 @@ def synchronize(ball, now):
 
 
 @shared
-def collect_contacts(land, balls, crowd, now, known):
+def collect_contacts(land, balls, work, now, known):
     """Find all that the members touch, and what that touches. Writes members, contacts.
 
     Of the first `known` members, the contacts with the ground are there already.
     """
     k = 0
-    while k < crowd.count[INVOLVED]:
-        i = crowd.members[k]
+    while k < work.count[INVOLVED]:
+        i = work.involved[k]
         if k >= known:
-            collect_ground_contacts(land, balls[i], i, crowd, 0 if k == 0 else crowd.count[CONTACTS])
-        if not balls[i]['piled']:  # a pile passes on what it is given
-            ball_interactions.collect_ball_contacts(crowd, land, balls, i, now)
+            collect_ground_contacts(land, balls[i], i, work, 0 if k == 0 else work.count[CONTACTS])
+        if not balls[i]['time_stepping']:  # a pile passes on what it is given
+            ball_interactions.collect_ball_contacts(work, land, balls, i, now)
         k += 1
 
 
 @kernel
-def add_to_set(crowd, i):
+def add_to_set(work, i):
     """Make ball `i`, which is where it is now, a member."""
-    crowd.places[i] = crowd.count[INVOLVED]
-    crowd.members[crowd.count[INVOLVED]] = i
-    crowd.count[INVOLVED] += 1
+    work.involved_index[i] = work.count[INVOLVED]
+    work.involved[work.count[INVOLVED]] = i
+    work.count[INVOLVED] += 1
 
 
 @kernel
-def clear_set(crowd):
+def clear_set(work):
     """Let there be no members. Writes count, places."""
-    for k in range(crowd.count[INVOLVED]):
-        crowd.places[crowd.members[k]] = -1
-    crowd.count[INVOLVED] = 0
-    crowd.count[CONTACTS] = 0
+    for k in range(work.count[INVOLVED]):
+        work.involved_index[work.involved[k]] = -1
+    work.count[INVOLVED] = 0
+    work.count[CONTACTS] = 0
 
 
 @kernel
-def add_contact(crowd, a, b, part, normal):
+def add_contact(work, a, b, part, normal):
     """Row of a new contact of ball `a` with ball `b`, or with a part of the ground; -1 when full."""
-    n = crowd.count[CONTACTS]
-    if n == len(crowd.contacts):
+    n = work.count[CONTACTS]
+    if n == len(work.contacts):
         return -1
-    crowd.count[CONTACTS] += 1
-    row = crowd.contacts[n]
+    work.count[CONTACTS] += 1
+    row = work.contacts[n]
     row['a'] = a
     row['b'] = b
     row['part'] = part
-    row['push'] = 0.0
-    row['approach'] = 0.0
+    row['normal_impulse'] = 0.0
+    row['approach_speed'] = 0.0
     store(row['normal'], normal)
     store(row['impulse'], ZERO)
     return n
 
 
 @ball_interactions.collect_ball_contacts.register(MultiBallWorkspace)
-def _gather_balls(crowd, land, balls, i, now):
-    k = crowd.places[i]
+def _gather_balls(work, land, balls, i, now):
+    k = work.involved_index[i]
     radius = land.ball.radius
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + SIMULTANEOUS_GAP)
-    at = next_node(crowd, 0, low, high)
+    at = next_node(work, 0, low, high)
     while at >= 0:
-        j = crowd.nodes[at]['ball']
-        at = next_node(crowd, at + 1, low, high)
-        if j == i or balls[j]['phase'] == HOLED or 0 <= crowd.places[j] < k:
+        j = work.nodes[at]['ball']
+        at = next_node(work, at + 1, low, high)
+        if j == i or balls[j]['phase'] == HOLED or 0 <= work.involved_index[j] < k:
             continue
         apart = sub(here, position_at(balls[j], now))
         if length(apart) - 2.0 * radius > SIMULTANEOUS_GAP:
             continue
-        if crowd.places[j] < 0:
-            if crowd.count[INVOLVED] == MOST_MEMBERS:
+        if work.involved_index[j] < 0:
+            if work.count[INVOLVED] == MOST_MEMBERS:
                 continue
-            add_to_set(crowd, j)
+            add_to_set(work, j)
             synchronize(balls[j], now)
-        add_ball_contact(land, balls, i, j, crowd, now)
+        add_ball_contact(land, balls, i, j, work, now)
 
 
 @kernel
-def add_ball_contact(land, balls, i, j, crowd, now):
+def add_ball_contact(land, balls, i, j, work, now):
     """Add the contact of balls `i` and `j`."""
-    n = add_contact(crowd, i, j, -1, unit(sub(position_at(balls[i], now), position_at(balls[j], now)), UP))
+    n = add_contact(work, i, j, -1, unit(sub(position_at(balls[i], now), position_at(balls[j], now)), UP))
     if n >= 0:
-        row = crowd.contacts[n]
+        row = work.contacts[n]
         row['restitution'] = land.ball.restitution
-        row['tangential'] = 0.0
+        row['tangential_restitution'] = 0.0
         row['friction'] = land.ball.friction
         row['mass'] = 0.5 * land.ball.mass
 
 
 @kernel
-def collect_ground_contacts(land, ball, i, crowd, begin):
+def collect_ground_contacts(land, ball, i, work, begin):
     """Contacts of ball `i` with the ground: what supports it first. Its own start at `begin`."""
     ground = land.ground
     place = load(ball['position'])
-    if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(crowd, begin, load(ball['normal'])):
+    if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(work, begin, load(ball['normal'])):
         normal = load(ball['normal'])
         add_ground_contact(land, ball, i, ball['support'], normal,
-                       contact_material(land, ball, ball['support'], normal), crowd)
+                       contact_material(land, ball, ball['support'], normal), work)
     low, high = surfaces.around(place, land.ball.radius + SIMULTANEOUS_GAP)
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         distance, normal = surfaces.nearest(ground, part, place)
-        if distance - land.ball.radius <= SIMULTANEOUS_GAP and is_new_normal(crowd, begin, normal) and (
+        if distance - land.ball.radius <= SIMULTANEOUS_GAP and is_new_normal(work, begin, normal) and (
                 surfaces.touchable(ground, part, place)):
-            add_ground_contact(land, ball, i, part, normal, contact_material(land, ball, part, normal), crowd)
+            add_ground_contact(land, ball, i, part, normal, contact_material(land, ball, part, normal), work)
         part = surfaces.next_part(ground, part + 1, low, high)
 
 
 @kernel
-def is_new_normal(crowd, begin, normal):
+def is_new_normal(work, begin, normal):
     """Whether `normal` is none of the contacts from `begin` on."""
-    for n in range(begin, crowd.count[CONTACTS]):
-        if dot(load(crowd.contacts[n]['normal']), normal) > 1.0 - SAME_NORMAL:
+    for n in range(begin, work.count[CONTACTS]):
+        if dot(load(work.contacts[n]['normal']), normal) > 1.0 - SAME_NORMAL:
             return False
     return True
 
 
 @kernel
-def add_ground_contact(land, ball, i, part, normal, material, crowd):
+def add_ground_contact(land, ball, i, part, normal, material, work):
     """Add the contact of ball `i` with `part`, which is of that `material`."""
-    n = add_contact(crowd, i, -1, part, normal)
+    n = add_contact(work, i, -1, part, normal)
     if n < 0:
         return
-    row = crowd.contacts[n]
+    row = work.contacts[n]
     row['restitution'] = restitution(material, max(-dot(load(ball['velocity']), normal), 0.0))
-    row['tangential'] = material['tangential_restitution']
+    row['tangential_restitution'] = material['tangential_restitution']
     row['friction'] = material['dynamic_friction']
     row['mass'] = land.ball.mass
 
@@ -174,9 +174,9 @@ def separation_rate(balls, row):
 
 
 @kernel
-def count_approaching(balls, crowd):
+def count_approaching(balls, work):
     """Number of contacts that approach: not those of what a ball rolls on, but for rounding."""
     found = 0
-    for n in range(crowd.count[CONTACTS]):
-        found += separation_rate(balls, crowd.contacts[n]) < -LEAST_SPEED
+    for n in range(work.count[CONTACTS]):
+        found += separation_rate(balls, work.contacts[n]) < -LEAST_SPEED
     return found

@@ -27,46 +27,46 @@ WALL = 1e-3  # least part of gravity that must press for a ball to come to rest 
 
 
 @kernel
-def contact_reach(crowd):
+def contact_reach(work):
     """How far [m] from a member something may be that it can touch before the next instant."""
     fastest = 0.0
-    for k in range(crowd.count[INVOLVED]):
-        fastest = max(fastest, length(load(crowd.before[crowd.members[k], 0:3])))
+    for k in range(work.count[INVOLVED]):
+        fastest = max(fastest, length(load(work.solved_motion[work.involved[k], 0:3])))
     return RESTING_GAP + 2.0 * TIME_STEP * fastest
 
 
 @kernel
-def add_ground_contacts(land, ball, i, crowd, reach):
-    """Contacts of member `i` with the ground within `reach`. Writes contacts."""
-    begin = crowd.count[CONTACTS]
+def add_ground_contacts(land, ball, i, work, reach):
+    """Contacts of member `i` with the ground within `contact_reach`. Writes contacts."""
+    begin = work.count[CONTACTS]
     place = load(ball['position'])
     low, high = surfaces.around(place, land.ball.radius + reach)
     part = surfaces.next_part(land.ground, 0, low, high)
     while part >= 0:
         distance, normal = surfaces.nearest(land.ground, part, place)
         gap = distance - land.ball.radius
-        if gap <= reach and is_new_normal(crowd, begin, normal) and surfaces.touchable(land.ground, part, place):
-            row = add_contact(crowd, i, -1, part, normal)
+        if gap <= reach and is_new_normal(work, begin, normal) and surfaces.touchable(land.ground, part, place):
+            row = add_contact(work, i, -1, part, normal)
             if row >= 0:
                 material = contact_material(land, ball, part, normal)
-                init_contact(crowd.contacts[row], gap, material['dynamic_friction'])
-                crowd.contacts[row]['shared'] = material['rolling_resistance']
+                init_contact(work.contacts[row], gap, material['dynamic_friction'])
+                work.contacts[row]['rolling_resistance'] = material['rolling_resistance']
         part = surfaces.next_part(land.ground, part + 1, low, high)
 
 
 @kernel
 def init_contact(row, gap, friction):
     """Fill in a contact that does not press yet."""
-    row['ahead'] = gap
+    row['separation'] = gap
     row['friction'] = friction
-    row['shared'] = 0.0
-    row['push'] = 0.0
-    store(row['rub'], ZERO)
+    row['rolling_resistance'] = 0.0
+    row['normal_impulse'] = 0.0
+    store(row['tangent_impulse'], ZERO)
 
 
 @kernel
-def neighbours_within(balls, crowd, i, reach, radius, now):
-    """Balls within `reach` of member number `i`, by number; whether others are on their way.
+def neighbours_within(balls, work, i, reach, radius, now):
+    """Balls within `contact_reach` of member number `i`, by number; whether others are on their way.
 
     Writes near, in rising order: what is solved first must not depend on the tree. Returns how many.
     """
@@ -74,31 +74,31 @@ def neighbours_within(balls, crowd, i, reach, radius, now):
     low, high = surfaces.around(here, radius + reach)
     found = 0
     watch = False
-    at = next_node(crowd, 0, low, high)
+    at = next_node(work, 0, low, high)
     while at >= 0:
-        j = crowd.nodes[at]['ball']
-        at = next_node(crowd, at + 1, low, high)
+        j = work.nodes[at]['ball']
+        at = next_node(work, at + 1, low, high)
         if j == i or balls[j]['phase'] == HOLED:
             continue
-        if crowd.places[j] < 0 and moves(balls[j]['phase']):
+        if work.involved_index[j] < 0 and moves(balls[j]['phase']):
             watch = True
         if found < MOST_NEIGHBOURS and length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= reach:
             k = found
-            while k > 0 and crowd.near[k - 1] > j:
-                crowd.near[k] = crowd.near[k - 1]
+            while k > 0 and work.neighbours[k - 1] > j:
+                work.neighbours[k] = work.neighbours[k - 1]
                 k -= 1
-            crowd.near[k] = j
+            work.neighbours[k] = j
             found += 1
     return found, watch
 
 
 @kernel
-def add_resting_contact(land, balls, crowd, i, j, now):
+def add_resting_contact(land, balls, work, i, j, now):
     """Add the contact of member `i` with ball `j`, a member or asleep."""
     apart = sub(load(balls[i]['position']), position_at(balls[j], now))
-    row = add_contact(crowd, i, j if crowd.places[j] >= 0 else -1, -2 - j, unit(apart, UP))
+    row = add_contact(work, i, j if work.involved_index[j] >= 0 else -1, -2 - j, unit(apart, UP))
     if row >= 0:
-        init_contact(crowd.contacts[row], length(apart) - 2.0 * land.ball.radius, land.ball.friction)
+        init_contact(work.contacts[row], length(apart) - 2.0 * land.ball.radius, land.ball.friction)
 
 
 @kernel
@@ -109,35 +109,35 @@ def gap_rate(balls, i, j, now):
 
 
 @shared
-def correct_positions(balls, crowd):
+def correct_positions(balls, work):
     """Push apart what overlaps, a little in every contact until nothing does. Writes positions and gaps."""
-    for k in range(crowd.count[INVOLVED]):
-        store(crowd.flow[crowd.members[k]], ZERO)
+    for k in range(work.count[INVOLVED]):
+        store(work.position_change[work.involved[k]], ZERO)
     for sweep in range(MOST_CORRECTIONS):
-        if sweep_positions(crowd, sweep % 2 == 1) <= OVERLAP:
+        if sweep_positions(work, sweep % 2 == 1) <= OVERLAP:
             break
-    for k in range(crowd.count[INVOLVED]):
-        place = balls[crowd.members[k]]['position']
-        store(place, add(load(place), load(crowd.flow[crowd.members[k]])))
+    for k in range(work.count[INVOLVED]):
+        place = balls[work.involved[k]]['position']
+        store(place, add(load(place), load(work.position_change[work.involved[k]])))
 
 
 @kernel
-def sweep_positions(crowd, backward):
-    """One sweep over all overlaps. Writes flow, the way of each member; returns the greatest overlap [m]."""
+def sweep_positions(work, backward):
+    """One sweep over all overlaps. Writes position_change; returns the greatest overlap [m]."""
     most = 0.0
-    count = crowd.count[CONTACTS]
+    count = work.count[CONTACTS]
     for k in range(count):
-        row = crowd.contacts[count - 1 - k if backward else k]
+        row = work.contacts[count - 1 - k if backward else k]
         normal = load(row['normal'])
-        overlap = -row['ahead'] - dot(load(crowd.flow[row['a']]), normal)
+        overlap = -row['separation'] - dot(load(work.position_change[row['a']]), normal)
         if row['b'] >= 0:
-            overlap += dot(load(crowd.flow[row['b']]), normal)
+            overlap += dot(load(work.position_change[row['b']]), normal)
         if overlap > 0.0:
             most = max(most, overlap)
             share = 0.5 if row['b'] >= 0 else 1.0
-            store(crowd.flow[row['a']], add_scaled(load(crowd.flow[row['a']]), share * overlap, normal))
+            store(work.position_change[row['a']], add_scaled(load(work.position_change[row['a']]), share * overlap, normal))
             if row['b'] >= 0:
-                store(crowd.flow[row['b']], add_scaled(load(crowd.flow[row['b']]), -share * overlap, normal))
+                store(work.position_change[row['b']], add_scaled(load(work.position_change[row['b']]), -share * overlap, normal))
     return most
 
 
@@ -148,117 +148,117 @@ def contact_partner(row):
 
 
 @shared
-def warm_start(land, balls, crowd):
+def warm_start(land, balls, work):
     """Begin with the impulses of the step before. Writes contacts and motion."""
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
+    for n in range(work.count[CONTACTS]):
+        row = work.contacts[n]
         ball = balls[row['a']]
-        for k in range(ball['pressing']):
-            if ball['pressed_by'][k] == contact_partner(row):
-                row['push'] = ball['pressed'][k, 0]
-                rub = (ball['pressed'][k, 1], ball['pressed'][k, 2], ball['pressed'][k, 3])
-                store(row['rub'], tangential(rub, load(row['normal'])))
-                apply_normal_impulse(crowd, row, scale(row['push'], load(row['normal'])))
-                apply_tangent_impulse(crowd, row, load(row['rub']), land.ball)
+        for k in range(ball['stored_count']):
+            if ball['stored_partners'][k] == contact_partner(row):
+                row['normal_impulse'] = ball['stored_impulses'][k, 0]
+                rub = (ball['stored_impulses'][k, 1], ball['stored_impulses'][k, 2], ball['stored_impulses'][k, 3])
+                store(row['tangent_impulse'], tangential(rub, load(row['normal'])))
+                apply_normal_impulse(work, row, scale(row['normal_impulse'], load(row['normal'])))
+                apply_tangent_impulse(work, row, load(row['tangent_impulse']), land.ball)
                 break
 
 
 @shared
-def store_impulses(balls, crowd):
-    """Remember the impulses for the next step. Writes pressing, pressed_by, pressed."""
-    for k in range(crowd.count[INVOLVED]):
-        balls[crowd.members[k]]['pressing'] = 0
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
+def store_impulses(balls, work):
+    """Remember the impulses for the next step. Writes stored_count, stored_partners, stored_impulses."""
+    for k in range(work.count[INVOLVED]):
+        balls[work.involved[k]]['stored_count'] = 0
+    for n in range(work.count[CONTACTS]):
+        row = work.contacts[n]
         ball = balls[row['a']]
-        k = ball['pressing']
-        if row['push'] > 0.0 and k < MOST_STORED:
-            ball['pressed_by'][k] = contact_partner(row)
-            ball['pressed'][k, 0] = row['push']
-            store(ball['pressed'][k, 1:4], load(row['rub']))
-            ball['pressing'] = k + 1
+        k = ball['stored_count']
+        if row['normal_impulse'] > 0.0 and k < MOST_STORED:
+            ball['stored_partners'][k] = contact_partner(row)
+            ball['stored_impulses'][k, 0] = row['normal_impulse']
+            store(ball['stored_impulses'][k, 1:4], load(row['tangent_impulse']))
+            ball['stored_count'] = k + 1
 
 
 @kernel
-def apply_normal_impulse(crowd, row, change):
-    """Change the velocities of both sides of a contact. Writes before."""
-    a = crowd.before[row['a'], 0:3]
+def apply_normal_impulse(work, row, change):
+    """Change the velocities of both sides of a contact. Writes solved_motion."""
+    a = work.solved_motion[row['a'], 0:3]
     store(a, add(load(a), change))
     if row['b'] >= 0:
-        b = crowd.before[row['b'], 0:3]
+        b = work.solved_motion[row['b'], 0:3]
         store(b, sub(load(b), change))
 
 
 @kernel
-def apply_tangent_impulse(crowd, row, rub, record):
-    """Let the friction impulse `rub` act on both sides. Writes before."""
-    apply_normal_impulse(crowd, row, rub)
+def apply_tangent_impulse(work, row, rub, record):
+    """Let the friction impulse `change` act on both sides. Writes solved_motion."""
+    apply_normal_impulse(work, row, rub)
     twist = scale(-1.0 / (record.inertia * record.radius), cross(load(row['normal']), rub))
-    a = crowd.before[row['a'], 3:6]
+    a = work.solved_motion[row['a'], 3:6]
     store(a, add(load(a), twist))
     if row['b'] >= 0:
-        b = crowd.before[row['b'], 3:6]
+        b = work.solved_motion[row['b'], 3:6]
         store(b, add(load(b), twist))
 
 
 @kernel
-def relative_motion(crowd, row):
+def relative_motion(work, row):
     """Velocity of one side of a contact against the other, and the sum of their spins."""
-    velocity = load(crowd.before[row['a'], 0:3])
-    spin = load(crowd.before[row['a'], 3:6])
+    velocity = load(work.solved_motion[row['a'], 0:3])
+    spin = load(work.solved_motion[row['a'], 3:6])
     if row['b'] >= 0:
-        velocity = sub(velocity, load(crowd.before[row['b'], 0:3]))
-        spin = add(spin, load(crowd.before[row['b'], 3:6]))
+        velocity = sub(velocity, load(work.solved_motion[row['b'], 0:3]))
+        spin = add(spin, load(work.solved_motion[row['b'], 3:6]))
     return velocity, spin
 
 
 @shared
-def sweep_impulses(land, crowd, backward):
+def sweep_impulses(land, work, backward):
     """One sweep over all contacts. Writes motion and impulses; returns the greatest change [m/s]."""
     most = 0.0
-    count = crowd.count[CONTACTS]
+    count = work.count[CONTACTS]
     grip = land.ball.inertia / (1.0 + land.ball.inertia)
     for k in range(count):
-        row = crowd.contacts[count - 1 - k if backward else k]
+        row = work.contacts[count - 1 - k if backward else k]
         normal = load(row['normal'])
         share = 0.5 if row['b'] >= 0 else 1.0
-        velocity, spin = relative_motion(crowd, row)
+        velocity, spin = relative_motion(work, row)
         rate = dot(velocity, normal)
-        needed = max(row['push'] - share * (rate + max(row['ahead'], 0.0) / TIME_STEP), 0.0)
-        change = needed - row['push']
+        needed = max(row['normal_impulse'] - share * (rate + max(row['separation'], 0.0) / TIME_STEP), 0.0)
+        change = needed - row['normal_impulse']
         if change != 0.0:
-            row['push'] = needed
-            apply_normal_impulse(crowd, row, scale(change, normal))
+            row['normal_impulse'] = needed
+            apply_normal_impulse(work, row, scale(change, normal))
             most = max(most, abs(change))
-        before = load(row['rub'])
+        before = load(row['tangent_impulse'])
         if needed > 0.0 or dot(before, before) > 0.0:
             sliding = sub(add_scaled(velocity, -rate, normal), scale(land.ball.radius, cross(spin, normal)))
             rub = add_scaled(before, -share * grip, sliding)
             size = length(rub)
             if size > row['friction'] * needed:
                 rub = scale(row['friction'] * needed / size, rub)
-            apply_tangent_impulse(crowd, row, sub(rub, before), land.ball)
-            store(row['rub'], rub)
+            apply_tangent_impulse(work, row, sub(rub, before), land.ball)
+            store(row['tangent_impulse'], rub)
     return most
 
 
 @shared
-def solve_contacts(land, balls, crowd):
-    """Solve all contacts of the members. Writes impulses, and the members' motion in before."""
-    warm_start(land, balls, crowd)
+def solve_contacts(land, balls, work):
+    """Solve all contacts of the members. Writes impulses, and the members' motion in solved_motion."""
+    warm_start(land, balls, work)
     for sweep in range(MOST_SWEEPS):
-        if sweep_impulses(land, crowd, sweep % 2 == 1) <= CONVERGED:
+        if sweep_impulses(land, work, sweep % 2 == 1) <= CONVERGED:
             break
-    store_impulses(balls, crowd)
+    store_impulses(balls, work)
 
 
 @kernel
-def write_back(ball, crowd, i):
-    """Give member `i` its solved motion, and nothing to stand on yet. Writes motion, held and contact."""
-    store(ball['velocity'], load(crowd.before[i, 0:3]))
-    store(ball['spin'], load(crowd.before[i, 3:6]))
-    ball['braking'] = 0.0
-    ball['held'] = 0
+def write_back(ball, work, i):
+    """Give member `i` its solved motion, and nothing to stand on yet. Writes motion, held_by and contact."""
+    store(ball['velocity'], load(work.solved_motion[i, 0:3]))
+    store(ball['spin'], load(work.solved_motion[i, 3:6]))
+    ball['rolling_loss'] = 0.0
+    ball['held_by'] = 0
     store(ball['normal'], ZERO)
     ball['support'] = NO_PART
 
@@ -272,18 +272,18 @@ def is_pressed_by_gravity(land, ball, normal):
 
 @kernel
 def count_support(land, balls, row):
-    """Let a contact that presses hold its balls. Writes held, braking, and what they stand on."""
-    if row['push'] <= 0.0 and row['ahead'] > RESTING_GAP:
+    """Let a contact that presses hold its balls. Writes held_by, rolling_loss, and what they stand on."""
+    if row['normal_impulse'] <= 0.0 and row['separation'] > RESTING_GAP:
         return
     ball = balls[row['a']]
     normal = load(row['normal'])
     if row['part'] < 0:
-        ball['held'] += 2
+        ball['held_by'] += 2
         if row['b'] >= 0:
-            balls[row['b']]['held'] += 2
+            balls[row['b']]['held_by'] += 2
         return
-    ball['held'] += 1
-    ball['braking'] += row['shared'] * row['push']
+    ball['held_by'] += 1
+    ball['rolling_loss'] += row['rolling_resistance'] * row['normal_impulse']
     if is_pressed_by_gravity(land, ball, normal) and normal[2] > ball['normal'][2]:
         set_support(land, ball, surfaces.support_of(land.ground, row['part']), normal)
 

@@ -28,10 +28,10 @@ LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
 @shared
-def resolve_ground_impact(land, balls, i, now, crowd, log):
+def resolve_ground_impact(land, balls, i, now, work, log):
     """Let ball `i` collide with its target. Writes motion, phase and contact; logs the impact.
 
-    Other balls that touch it are hit too and become members of the crowd.
+    Other balls that touch it are hit too and become members of the work.
     """
     ball = balls[i]
     place = load(ball['position'])
@@ -56,23 +56,23 @@ def resolve_ground_impact(land, balls, i, now, crowd, log):
     before = load(ball['velocity']), load(ball['spin'])
     number = contact_material_number(land, ball, ball['target'], normal)
     material = land.materials[number]
-    contact_set.add_ground_contact(land, ball, i, ball['target'], normal, material, crowd)
-    contact_set.collect_contacts(land, balls, crowd, now, 1 if alone else 0)
-    if crowd.count[INVOLVED] > 1 or contact_set.count_approaching(balls, crowd) > 1:
-        resolve_contact_set(land, balls, now, crowd, 1, log)
-        resume_motion(land, balls, now, crowd, 1)
+    contact_set.add_ground_contact(land, ball, i, ball['target'], normal, material, work)
+    contact_set.collect_contacts(land, balls, work, now, 1 if alone else 0)
+    if work.count[INVOLVED] > 1 or contact_set.count_approaching(balls, work) > 1:
+        resolve_contact_set(land, balls, now, work, 1, log)
+        resume_motion(land, balls, now, work, 1)
     else:
         apply_bounce(land, ball, normal, material)
     rebound = max(dot(load(ball['velocity']), normal), 0.0)
     if approach > LEAST_LOGGED_APPROACH:
         log_ground_impact(land, ball, i, now, normal, number, before, log)
     # A single longer piece among many short ones is no way out: on two lips they come in waves.
-    ball['stalled'] = ball['stalled'] + 1 if now - ball['begin'] < RAPID else max(ball['stalled'] - 1, 0)
+    ball['rapid_impacts'] = ball['rapid_impacts'] + 1 if now - ball['begin'] < RAPID else max(ball['rapid_impacts'] - 1, 0)
     choose_after_impact(land, ball, now, (supported, approach, rebound), normal, material)
-    if ball['piled']:
+    if ball['time_stepping']:
         return_to_events(ball)
     elif is_wedged(ball):
-        step_wedged(land, balls, i, now, crowd)
+        step_wedged(land, balls, i, now, work)
 
 
 @kernel
@@ -119,8 +119,8 @@ def choose_after_impact(land, ball, now, impact, normal, material):
         if bounciness < 1.0:
             # Bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all and press with
             # v (1 + e) / (1 - e) on the whole: (1 + e) / 2 of the weight, on the average.
-            ball['tail_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
-            ball['tail_press'] = 0.5 * (1.0 + bounciness)
+            ball['micro_bounce_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
+            ball['micro_bounce_load'] = 0.5 * (1.0 + bounciness)
             set_support(land, ball, surfaces.support_of(land.ground, ball['target']), normal)
             ball['phase'] = SLIDE
             choose_contact_mode(land, ball, now)

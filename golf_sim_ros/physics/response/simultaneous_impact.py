@@ -20,51 +20,51 @@ MOST_GRADIENT_STEPS = 3000
 
 
 @shared
-def solve_reflections(land, balls, crowd):
+def solve_reflections(land, balls, work):
     """Let all contacts bounce at once. Writes velocities, spins, and the contacts' impulses."""
-    contacts = crowd.contacts
-    count = crowd.count[CONTACTS]
+    contacts = work.contacts
+    count = work.count[CONTACTS]
     fastest = 0.0
-    for k in range(crowd.count[INVOLVED]):
-        fastest = max(fastest, length(load(balls[crowd.members[k]]['velocity'])))
+    for k in range(work.count[INVOLVED]):
+        fastest = max(fastest, length(load(balls[work.involved[k]]['velocity'])))
     for round_ in range(MOST_REFLECTIONS):
         approaching = False
         for n in range(count):
             row = contacts[n]
             row['rate'] = separation_rate(balls, row)
-            row['approach'] = max(row['approach'], -row['rate'])
+            row['approach_speed'] = max(row['approach_speed'], -row['rate'])
             # At last nothing bounces any more, and all that touches counts: then none approaches.
             row['active'] = row['rate'] < -1e-12 * fastest or round_ == MOST_REFLECTIONS - 1
             approaching |= row['rate'] < -1e-12 * fastest
         if not approaching:
             break
-        project_impulses(crowd)
-        apply_impulses(land, balls, crowd, round_ == MOST_REFLECTIONS - 1)
+        project_impulses(work)
+        apply_impulses(land, balls, work, round_ == MOST_REFLECTIONS - 1)
 
 
 @kernel
-def project_impulses(crowd):
-    """Least impulses (over mass) that stop all approach at the active contacts. Writes push."""
-    contacts = crowd.contacts
-    count = crowd.count[CONTACTS]
-    active = count_contacts(crowd)
+def project_impulses(work):
+    """Least impulses (over mass) that stop all approach at the active contacts. Writes normal_impulse."""
+    contacts = work.contacts
+    count = work.count[CONTACTS]
+    active = count_contacts(work)
     if active == 1:
         for n in range(count):
             row = contacts[n]
-            row['push'] = -row['rate'] / (2.0 if row['b'] >= 0 else 1.0) if row['active'] else 0.0
+            row['normal_impulse'] = -row['rate'] / (2.0 if row['b'] >= 0 else 1.0) if row['active'] else 0.0
         return
     most = 0.0
     for n in range(count):
         row = contacts[n]
-        row['push'] = 0.0
-        row['before'] = 0.0
-        row['ahead'] = 0.0
+        row['normal_impulse'] = 0.0
+        row['previous_impulse'] = 0.0
+        row['extrapolated_impulse'] = 0.0
         if row['active']:
             # A bound on the row sums of the matrix that turns pushes into rates.
-            most = max(most, (2.0 if row['b'] >= 0 else 1.0) * row['shared'])
+            most = max(most, (2.0 if row['b'] >= 0 else 1.0) * row['contact_count'])
     momentum = 1.0
     for _ in range(MOST_GRADIENT_STEPS):
-        apply_extrapolated(crowd)
+        apply_extrapolated(work)
         changed = 0.0
         largest = 0.0
         turned = 0.0
@@ -72,12 +72,12 @@ def project_impulses(crowd):
             row = contacts[n]
             if not row['active']:
                 continue
-            slope = row['rate'] + rate_change(crowd, row)
-            push = max(row['ahead'] - slope / most, 0.0)
-            turned += (row['ahead'] - push) * (push - row['push'])
-            row['before'] = row['push']
-            row['push'] = push
-            changed = max(changed, abs(push - row['before']))
+            slope = row['rate'] + rate_change(work, row)
+            push = max(row['extrapolated_impulse'] - slope / most, 0.0)
+            turned += (row['extrapolated_impulse'] - push) * (push - row['normal_impulse'])
+            row['previous_impulse'] = row['normal_impulse']
+            row['normal_impulse'] = push
+            changed = max(changed, abs(push - row['previous_impulse']))
             largest = max(largest, push)
         if changed <= 1e-15 * largest:
             break
@@ -89,76 +89,76 @@ def project_impulses(crowd):
             momentum = 1.0
         for n in range(count):
             row = contacts[n]
-            row['ahead'] = row['push'] + weight * (row['push'] - row['before'])
+            row['extrapolated_impulse'] = row['normal_impulse'] + weight * (row['normal_impulse'] - row['previous_impulse'])
 
 
 @kernel
-def count_contacts(crowd):
-    """Count active contacts, and those of each ball. Writes flow; returns the number of all."""
-    for k in range(crowd.count[INVOLVED]):
-        crowd.flow[crowd.members[k], 0] = 0.0
+def count_contacts(work):
+    """Count active contacts, and those of each ball. Writes contact_count; returns the number of all."""
+    for k in range(work.count[INVOLVED]):
+        work.contact_counts[work.involved[k]] = 0.0
     active = 0
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
+    for n in range(work.count[CONTACTS]):
+        row = work.contacts[n]
         if row['active']:
             active += 1
-            crowd.flow[row['a'], 0] += 1.0
+            work.contact_counts[row['a']] += 1.0
             if row['b'] >= 0:
-                crowd.flow[row['b'], 0] += 1.0
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
-        row['shared'] = crowd.flow[row['a'], 0]
+                work.contact_counts[row['b']] += 1.0
+    for n in range(work.count[CONTACTS]):
+        row = work.contacts[n]
+        row['contact_count'] = work.contact_counts[row['a']]
         if row['b'] >= 0:
-            row['shared'] = max(row['shared'], crowd.flow[row['b'], 0])
+            row['contact_count'] = max(row['contact_count'], work.contact_counts[row['b']])
     return active
 
 
 @kernel
-def apply_extrapolated(crowd):
-    """Change of velocities by the contacts' `ahead`. Writes flow."""
-    for k in range(crowd.count[INVOLVED]):
-        store(crowd.flow[crowd.members[k]], ZERO)
-    for n in range(crowd.count[CONTACTS]):
-        row = crowd.contacts[n]
-        if row['active'] and row['ahead'] != 0.0:
-            a = crowd.flow[row['a']]
-            store(a, add_scaled(load(a), row['ahead'], load(row['normal'])))
+def apply_extrapolated(work):
+    """Change of velocities by the contacts' `extrapolated_impulse`. Writes velocity_change."""
+    for k in range(work.count[INVOLVED]):
+        store(work.velocity_change[work.involved[k]], ZERO)
+    for n in range(work.count[CONTACTS]):
+        row = work.contacts[n]
+        if row['active'] and row['extrapolated_impulse'] != 0.0:
+            a = work.velocity_change[row['a']]
+            store(a, add_scaled(load(a), row['extrapolated_impulse'], load(row['normal'])))
             if row['b'] >= 0:
-                b = crowd.flow[row['b']]
-                store(b, add_scaled(load(b), -row['ahead'], load(row['normal'])))
+                b = work.velocity_change[row['b']]
+                store(b, add_scaled(load(b), -row['extrapolated_impulse'], load(row['normal'])))
 
 
 @kernel
-def rate_change(crowd, row):
-    """Change of the rate of a contact by `flow`."""
+def rate_change(work, row):
+    """Change of the rate of a contact by velocity_change."""
     normal = load(row['normal'])
-    change = dot(load(crowd.flow[row['a']]), normal)
+    change = dot(load(work.velocity_change[row['a']]), normal)
     if row['b'] >= 0:
-        change -= dot(load(crowd.flow[row['b']]), normal)
+        change -= dot(load(work.velocity_change[row['b']]), normal)
     return change
 
 
 @kernel
-def apply_impulses(land, balls, crowd, last):
+def apply_impulses(land, balls, work, last):
     """Apply the pushes with restitution, unless it is the `last` round, then friction. Writes motion."""
-    contacts = crowd.contacts
-    for n in range(crowd.count[CONTACTS]):
+    contacts = work.contacts
+    for n in range(work.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
             e = 0.0 if last else row['restitution']
-            row['push'] *= (1.0 + e) * land.ball.mass
-            apply_to_both(land, balls, row, scale(row['push'], load(row['normal'])))
+            row['normal_impulse'] *= (1.0 + e) * land.ball.mass
+            apply_to_both(land, balls, row, scale(row['normal_impulse'], load(row['normal'])))
     # All friction is worked out before any acts, and a ball's contacts share it: none comes first.
-    for n in range(crowd.count[CONTACTS]):
+    for n in range(work.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            bond = ContactProperties(0.0, row['tangential'], row['friction'], row['mass'], land.ball.inertia)
-            rub = friction(bond, row['push'], contact_slip(land, balls, row))
-            store(row['rub'], scale(1.0 / row['shared'], rub))
-    for n in range(crowd.count[CONTACTS]):
+            bond = ContactProperties(0.0, row['tangential_restitution'], row['friction'], row['mass'], land.ball.inertia)
+            rub = friction(bond, row['normal_impulse'], contact_slip(land, balls, row))
+            store(row['tangent_impulse'], scale(1.0 / row['contact_count'], rub))
+    for n in range(work.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            apply_to_both(land, balls, row, load(row['rub']))
+            apply_to_both(land, balls, row, load(row['tangent_impulse']))
 
 
 @kernel

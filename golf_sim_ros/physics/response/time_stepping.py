@@ -53,20 +53,20 @@ def is_step_time(now):
 def begin_time_stepping(ball):
     """Make a ball one of a pile."""
     mark_moved_by_ball(ball)
-    ball['leans'] = 0
-    ball['piled'] = JOINED
-    ball['stalled'] = MANY_RAPID_IMPACTS + 1
+    ball['sleeps_on_ball'] = 0
+    ball['time_stepping'] = JOINED
+    ball['rapid_impacts'] = MANY_RAPID_IMPACTS + 1
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
-    ball['calm'] = 0
-    ball['pressing'] = 0
+    ball['still_steps'] = 0
+    ball['stored_count'] = 0
 
 
 @kernel
 def return_to_events(ball):
     """Let a ball be no longer one of a pile."""
-    ball['piled'] = 0
-    ball['stalled'] = 0
+    ball['time_stepping'] = 0
+    ball['rapid_impacts'] = 0
 
 
 @kernel
@@ -76,139 +76,139 @@ def straight_segment(ball, span):
     ball['span'] = span
     ball['ending'] = STEP_END
     store(ball['origin'], load(ball['position']))
-    store(ball['twist'][3], load(ball['spin']))
+    store(ball['spin_coefficients'][3], load(ball['spin']))
     fit_segment(ball, scale(span, v), (v, v), (ZERO, ZERO), (ZERO, ZERO))
 
 
 @shared
-def touches_ball(balls, crowd, i, radius, now):
+def touches_ball(balls, work, i, radius, now):
     """Whether another ball is within PILE_NEAR of ball `i`."""
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + RESTING_GAP)
-    at = next_node(crowd, 0, low, high)
+    at = next_node(work, 0, low, high)
     while at >= 0:
-        j = crowd.nodes[at]['ball']
+        j = work.nodes[at]['ball']
         if j != i and balls[j]['phase'] != HOLED and (
                 length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= RESTING_GAP):
             return True
-        at = next_node(crowd, at + 1, low, high)
+        at = next_node(work, at + 1, low, high)
     return False
 
 
 @ball_interactions.step_together.register(MultiBallWorkspace)
-def _lean(crowd, land, balls, i, now):
-    if balls[i]['piled']:
+def _lean(work, land, balls, i, now):
+    if balls[i]['time_stepping']:
         if is_step_time(now):
-            solve_time_step(land, balls, now, crowd)
+            solve_time_step(land, balls, now, work)
         return True
-    if is_wedged(balls[i]) and touches_ball(balls, crowd, i, land.ball.radius, now):
+    if is_wedged(balls[i]) and touches_ball(balls, work, i, land.ball.radius, now):
         begin_time_stepping(balls[i])
         return True
     return False
 
 
 @ball_interactions.wake.register(MultiBallWorkspace)
-def _rouse(crowd, balls, radius, now):
-    if not crowd.count[ASLEEP]:
+def _rouse(work, balls, radius, now):
+    if not work.count[ASLEEP]:
         return
-    for k in range(crowd.count[INVOLVED]):
-        i = crowd.members[k]
+    for k in range(work.count[INVOLVED]):
+        i = work.involved[k]
         if balls[i]['phase'] == REST:
             continue
         here = load(balls[i]['position'])
         low, high = surfaces.around(here, radius + 2.0 * RESTING_GAP)
-        at = next_node(crowd, 0, low, high)
+        at = next_node(work, 0, low, high)
         while at >= 0:
-            j = crowd.nodes[at]['ball']
-            at = next_node(crowd, at + 1, low, high)
+            j = work.nodes[at]['ball']
+            at = next_node(work, at + 1, low, high)
             other = balls[j]
-            if crowd.places[j] < 0 and other['phase'] == REST and other['leans'] and (
+            if work.involved_index[j] < 0 and other['phase'] == REST and other['sleeps_on_ball'] and (
                     length(sub(here, load(other['position']))) - 2.0 * radius <= 2.0 * RESTING_GAP):
-                add_to_set(crowd, j)
+                add_to_set(work, j)
                 begin_time_stepping(other)
 
 
 @shared
-def solve_time_step(land, balls, now, crowd):
+def solve_time_step(land, balls, now, work):
     """Solve all contacts of the piled balls that are due: the members. Writes motion and phases."""
     for i in range(len(balls)):
-        if balls[i]['piled'] and crowd.ends[i] == now and crowd.places[i] < 0:
-            add_to_set(crowd, i)
+        if balls[i]['time_stepping'] and work.segment_ends[i] == now and work.involved_index[i] < 0:
+            add_to_set(work, i)
             synchronize(balls[i], now)
-    for k in range(crowd.count[INVOLVED]):
-        apply_gravity(land, balls, crowd, crowd.members[k])
-    collect_resting_contacts(land, balls, crowd, now)
-    correct_positions(balls, crowd)
-    solve_contacts(land, balls, crowd)
-    for k in range(crowd.count[INVOLVED]):
-        write_back(balls[crowd.members[k]], crowd, crowd.members[k])
-    for n in range(crowd.count[CONTACTS]):
-        count_support(land, balls, crowd.contacts[n])
-    for k in range(crowd.count[INVOLVED]):
-        choose_after_step(land, balls[crowd.members[k]], now, crowd)
+    for k in range(work.count[INVOLVED]):
+        apply_gravity(land, balls, work, work.involved[k])
+    collect_resting_contacts(land, balls, work, now)
+    correct_positions(balls, work)
+    solve_contacts(land, balls, work)
+    for k in range(work.count[INVOLVED]):
+        write_back(balls[work.involved[k]], work, work.involved[k])
+    for n in range(work.count[CONTACTS]):
+        count_support(land, balls, work.contacts[n])
+    for k in range(work.count[INVOLVED]):
+        choose_after_step(land, balls[work.involved[k]], now, work)
 
 
 @kernel
-def apply_gravity(land, balls, crowd, i):
-    """Let gravity act on member `i` up to half-way through its next step. Writes before and piled."""
+def apply_gravity(land, balls, work, i):
+    """Let gravity act on member `i` up to half-way through its next step. Writes solved_motion and time_stepping."""
     ball = balls[i]
-    time = TIME_STEP if ball['piled'] == STEPPED else 0.5 * TIME_STEP
-    ball['piled'] = STEPPED
+    time = TIME_STEP if ball['time_stepping'] == STEPPED else 0.5 * TIME_STEP
+    ball['time_stepping'] = STEPPED
     weight = gravity_at(land.effects, load(ball['position']))
-    store(crowd.before[i, 0:3], add_scaled(load(ball['velocity']), time, weight))
-    store(crowd.before[i, 3:6], load(ball['spin']))
+    store(work.solved_motion[i, 0:3], add_scaled(load(ball['velocity']), time, weight))
+    store(work.solved_motion[i, 3:6], load(ball['spin']))
 
 
 @shared
-def collect_resting_contacts(land, balls, crowd, now):
+def collect_resting_contacts(land, balls, work, now):
     """Contacts of the members with all that they may reach. Writes contacts, members and their reach."""
-    reach = contact_reach(crowd)
+    reach = contact_reach(work)
     k = 0
-    while k < crowd.count[INVOLVED]:
-        i = crowd.members[k]
-        add_ground_contacts(land, balls[i], i, crowd, reach)
-        found, watch = neighbours_within(balls, crowd, i, reach, land.ball.radius, now)
-        balls[i]['reach'] = reach
-        balls[i]['watch'] = watch
+    while k < work.count[INVOLVED]:
+        i = work.involved[k]
+        add_ground_contacts(land, balls[i], i, work, reach)
+        found, watch = neighbours_within(balls, work, i, reach, land.ball.radius, now)
+        balls[i]['contact_reach'] = reach
+        balls[i]['watches_neighbours'] = watch
         for n in range(found):
-            j = crowd.near[n]
-            if 0 <= crowd.places[j] < k:
+            j = work.neighbours[n]
+            if 0 <= work.involved_index[j] < k:
                 continue  # has this contact already
-            if crowd.places[j] < 0:
+            if work.involved_index[j] < 0:
                 if balls[j]['phase'] != REST:
                     continue  # it comes by itself
                 rate = gap_rate(balls, i, j, now)
-                if rate < -WAKING_APPROACH or balls[j]['leans'] and rate > WAKING_APPROACH:
+                if rate < -WAKING_APPROACH or balls[j]['sleeps_on_ball'] and rate > WAKING_APPROACH:
                     begin_time_stepping(balls[j])
-                    add_to_set(crowd, j)
-                    apply_gravity(land, balls, crowd, j)
-            add_resting_contact(land, balls, crowd, i, j, now)
+                    add_to_set(work, j)
+                    apply_gravity(land, balls, work, j)
+            add_resting_contact(land, balls, work, i, j, now)
         k += 1
 
 
 @kernel
-def choose_after_step(land, ball, now, crowd):
+def choose_after_step(land, ball, now, work):
     """Let a member rest, roll away, fly away, or stay in the pile. Writes motion and phase."""
     speed = length(load(ball['velocity']))
-    left = max(speed - ball['braking'], 0.0)
-    if left < DAMPED_SPEED and ball['held'] > 1:
+    left = max(speed - ball['rolling_loss'], 0.0)
+    if left < DAMPED_SPEED and ball['held_by'] > 1:
         left *= DAMPING
     limit_speed(ball, left)
     turning = land.ball.radius * length(load(ball['spin']))
-    ball['calm'] = ball['calm'] + 1 if left + turning < STILL_SPEED and ball['held'] > 0 else 0
+    ball['still_steps'] = ball['still_steps'] + 1 if left + turning < STILL_SPEED and ball['held_by'] > 0 else 0
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
-    if ball['calm'] > STEPS_TO_SLEEP:
-        ball['leans'] = 1 if ball['held'] > 1 else 0
-        crowd.count[ASLEEP] |= ball['leans']
+    if ball['still_steps'] > STEPS_TO_SLEEP:
+        ball['sleeps_on_ball'] = 1 if ball['held_by'] > 1 else 0
+        work.count[ASLEEP] |= ball['sleeps_on_ball']
         return_to_events(ball)
         store(ball['velocity'], ZERO)
         store(ball['spin'], ZERO)
         ball['phase'] = REST
-    elif ball['held'] == 0 or speed > FREE_SPEED or ball['held'] == 1 and ball['support'] != NO_PART:
+    elif ball['held_by'] == 0 or speed > FREE_SPEED or ball['held_by'] == 1 and ball['support'] != NO_PART:
         return_to_events(ball)
         weight = gravity_at(land.effects, load(ball['position']))
         store(ball['velocity'], add_scaled(load(ball['velocity']), -0.5 * TIME_STEP, weight))
-        if ball['held'] == 1 and ball['support'] != NO_PART:
+        if ball['held_by'] == 1 and ball['support'] != NO_PART:
             ball['phase'] = SLIDE
             choose_contact_mode(land, ball, now)

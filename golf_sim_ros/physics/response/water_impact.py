@@ -53,8 +53,8 @@ def resolve_water_impact(land, ball, number, now, log):
             ball['support'] = NO_PART
     store(ball['normal'], (0.0, 0.0, 1.0))
     ball['step'] = 0.0
-    ball['stalled'] = 0
-    ball['piled'] = 0
+    ball['rapid_impacts'] = 0
+    ball['time_stepping'] = 0
     log_water_impact(land, ball, number, now, (velocity, spin), log)
 
 

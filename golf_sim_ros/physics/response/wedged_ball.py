@@ -29,7 +29,7 @@ REST_SPEED = 1e-4  # m/s after a step: far less than the 2e-3 that gravity gives
 @kernel
 def is_wedged(ball):
     """Whether the ball moves in small steps, held by what it touches."""
-    return ball['stalled'] > MANY_RAPID_IMPACTS
+    return ball['rapid_impacts'] > MANY_RAPID_IMPACTS
 
 
 @kernel
@@ -39,40 +39,40 @@ def wedged_step_length(ball):
 
 
 @shared
-def step_wedged(land, balls, i, now, crowd):
+def step_wedged(land, balls, i, now, work):
     """Let what ball `i` touches hold it. Writes position, motion, phase and contact.
 
     A ball left with one surface to lie on, or none, is caught no more.
     """
     ball = balls[i]
-    store(crowd.before[i, 0:3], load(ball['velocity']))
-    store(crowd.before[i, 3:6], load(ball['spin']))
-    crowd.count[CONTACTS] = 0
-    add_ground_contacts(land, ball, i, crowd, HOLDING_GAP)
-    store(crowd.flow[i], ZERO)
+    store(work.solved_motion[i, 0:3], load(ball['velocity']))
+    store(work.solved_motion[i, 3:6], load(ball['spin']))
+    work.count[CONTACTS] = 0
+    add_ground_contacts(land, ball, i, work, HOLDING_GAP)
+    store(work.position_change[i], ZERO)
     for sweep in range(WEDGED_SWEEPS):
-        if sweep_impulses(land, crowd, sweep % 2 == 1) <= 0.01 * LEAST_SPEED:
+        if sweep_impulses(land, work, sweep % 2 == 1) <= 0.01 * LEAST_SPEED:
             break
     for sweep in range(WEDGED_SWEEPS):
-        if sweep_positions(crowd, sweep % 2 == 1) <= TOUCH:
+        if sweep_positions(work, sweep % 2 == 1) <= TOUCH:
             break
-    store(ball['position'], add(load(ball['position']), load(crowd.flow[i])))
-    write_back(ball, crowd, i)
-    for n in range(crowd.count[CONTACTS]):
-        count_support(land, balls, crowd.contacts[n])
-    left = max(length(load(ball['velocity'])) - ball['braking'], 0.0)
+    store(ball['position'], add(load(ball['position']), load(work.position_change[i])))
+    write_back(ball, work, i)
+    for n in range(work.count[CONTACTS]):
+        count_support(land, balls, work.contacts[n])
+    left = max(length(load(ball['velocity'])) - ball['rolling_loss'], 0.0)
     limit_speed(ball, left)
     ball['phase'] = FLIGHT
     # What is held does not hop: else the rounding of its rise would decide the next step's length.
-    ball['step'] = WEDGED_STEP if ball['held'] > 0 else 0.0
-    ball['rated'] = -1.0
-    if ball['held'] == 0:
-        ball['stalled'] = 0
+    ball['step'] = WEDGED_STEP if ball['held_by'] > 0 else 0.0
+    ball['last_stage_time'] = -1.0
+    if ball['held_by'] == 0:
+        ball['rapid_impacts'] = 0
     elif left < REST_SPEED and ball['support'] != NO_PART:
         store(ball['velocity'], ZERO)
         store(ball['spin'], ZERO)
         ball['phase'] = REST
-    elif ball['held'] == 1 and ball['support'] != NO_PART:
-        ball['stalled'] = 0
+    elif ball['held_by'] == 1 and ball['support'] != NO_PART:
+        ball['rapid_impacts'] = 0
         ball['phase'] = SLIDE
         choose_contact_mode(land, ball, now)

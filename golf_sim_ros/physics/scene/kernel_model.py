@@ -23,7 +23,7 @@ class Limits(NamedTuple):
     """How exact to be.
 
     ``settle`` [m/s]: rebounds slower than this are summed in closed form instead of followed one
-    by one; ``path`` [m]: how far the curve that ticks read may lie from a closed form.
+    by one; ``position_coefficients`` [m]: how far the curve that ticks read may lie from a closed form.
     """
 
     settle: float

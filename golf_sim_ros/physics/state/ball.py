@@ -49,38 +49,38 @@ BALL = np.dtype([
     # the contact: part of the ground under it, its material, the normal out of it; until when its
     # bounces, too small to follow one by one, go on, how hard they press meanwhile, over m g, and the
     # acceleration along the ground that the air gives
-    ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('tail_end', 'f8'), ('tail_press', 'f8'),
-    ('tail_air', 'f8', 3),
+    ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('micro_bounce_end', 'f8'), ('micro_bounce_load', 'f8'),
+    ('micro_bounce_air', 'f8', 3),
     # in a pile: whether it is, for how many steps it has been calm, what holds it (1 for the ground, 2
     # for a ball, summed), rolling resistance [m/s]; how far around all contacts are known, and whether other
     # balls are on their way there; asleep: whether it leans on a ball
-    ('piled', 'i8'), ('calm', 'i8'), ('held', 'i8'), ('braking', 'f8'), ('reach', 'f8'), ('watch', 'i8'),
-    ('leans', 'i8'),
+    ('time_stepping', 'i8'), ('still_steps', 'i8'), ('held_by', 'i8'), ('rolling_loss', 'f8'), ('contact_reach', 'f8'), ('watches_neighbours', 'i8'),
+    ('sleeps_on_ball', 'i8'),
     # its contacts in the last step: how many, with what, their push and rub over mass [m/s]
-    ('pressing', 'i8'), ('pressed_by', 'i8', MOST_STORED), ('pressed', 'f8', (MOST_STORED, 4)),
+    ('stored_count', 'i8'), ('stored_partners', 'i8', MOST_STORED), ('stored_impulses', 'f8', (MOST_STORED, 4)),
     # number of the water that it is in, from 1; 0: none
     ('water', 'i8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
     # and of the spin; what ends it and on which part of the ground, or at which other ball
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
-    ('path', 'f8', (6, 3)), ('twist', 'f8', (4, 3)), ('ending', 'i8'), ('target', 'i8'),
+    ('position_coefficients', 'f8', (6, 3)), ('spin_coefficients', 'f8', (4, 3)), ('ending', 'i8'), ('target', 'i8'),
     # the integrator's next step and its stages: rates of position, velocity, spin; when the last
     # of them holds, -1 where something else has moved the ball since
-    ('step', 'f8'), ('stages', 'f8', (8, 9)), ('rated', 'f8'), ('evaluations', 'i8'),
+    ('step', 'f8'), ('stages', 'f8', (8, 9)), ('last_stage_time', 'f8'), ('evaluations', 'i8'),
     # the shot under way; whether another ball has set it off
-    ('playing', 'i8'), ('knocked', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
-    ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('highest', 'f8'),
+    ('shot_active', 'i8'), ('moved_by_ball', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
+    ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('apex', 'f8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
-    ('bounces', 'i8'), ('stalled', 'i8'), ('stuck', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
+    ('bounces', 'i8'), ('rapid_impacts', 'i8'), ('zero_length_segments', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
     # why its shot failed; until when its pieces are counted, and how many there were too many of late
-    ('failed', 'i8'), ('counted_from', 'f8'), ('pieces', 'f8'),
+    ('failed', 'i8'), ('counted_until', 'f8'), ('segments_spent', 'f8'),
     # how often it was struck since it was teed
     ('strokes', 'i8'),
 ], align=True)
 
 # What is told of a ball whose shot has ended, by fields of the same names.
 ENDED = np.dtype([(name, BALL[name]) for name in (
-    'phase', 'support', 'material', 'position', 'struck', 'struck_at', 'launch', 'launch_spin', 'highest',
+    'phase', 'support', 'material', 'position', 'struck', 'struck_at', 'launch', 'launch_spin', 'apex',
     'landed', 'landing', 'landed_at', 'landing_velocity', 'bounces', 'ended', 'over_time')], align=True)
 
 

@@ -10,9 +10,9 @@ TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
 
 OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its piece
 # What counts of all else if the ball does not move: the rest is written when it sets off.
-STANDING = ('phase', 'support', 'material', 'normal', 'tail_end', 'tail_press', 'tail_air', 'leans',
+STANDING = ('phase', 'support', 'material', 'normal', 'micro_bounce_end', 'micro_bounce_load', 'micro_bounce_air', 'sleeps_on_ball',
             'strokes')
-PRESSED = ('pressing', 'pressed_by', 'pressed')  # the same of a ball that is not in a pile
+PRESSED = ('stored_count', 'stored_partners', 'stored_impulses')  # the same of a ball that is not in a pile
 
 
 def plain(ball):
@@ -28,7 +28,7 @@ def plain_of_tick(ball):
 def plain_of_piece(ball):
     """The part of `plain` that lasts as long as the ball's piece of path."""
     names = BALL.names[len(OF_TICK):] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
-    if not ball['piled']:
+    if not ball['time_stepping']:
         names = [name for name in names if name not in PRESSED]
     return {name: ball[name].tolist() for name in names}
 

@@ -66,7 +66,7 @@ def pivoting(ball, material, press, drive, radius, inertia):
 @kernel
 def micro_bounce_forces(ball, normal, press, downhill):
     """How hard a ball presses, and what drives it along the ground, while its last bounces go on."""
-    return ball['tail_press'] * press, add(downhill, tangential(load(ball['tail_air']), normal))
+    return ball['micro_bounce_load'] * press, add(downhill, tangential(load(ball['micro_bounce_air']), normal))
 
 
 @shared
@@ -89,7 +89,7 @@ def contact_rates(land, ball, place, velocity, spin):
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
-    tail = ball['tail_end'] > ball['begin']  # single impacts do not brake a rolling ball, nor does their sum
+    tail = ball['micro_bounce_end'] > ball['begin']  # single impacts do not brake a rolling ball, nor does their sum
     load = press
     if tail:
         load, downhill = micro_bounce_forces(ball, normal, press, downhill)

@@ -24,10 +24,10 @@ def fit_segment(ball, way, velocity, rate, spin_rate):
 
     `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and
     `spin_rate` are pairs (at start, at end); the start's spin is the ball's own and the end's
-    spin stands in the fourth coefficient already. Writes ball's path and twist.
+    spin stands in the fourth coefficient already. Writes ball's path and spin_coefficients.
     """
     h = ball['span']
-    w = ball['path']
+    w = ball['position_coefficients']
     w1 = add_scaled((0.0, 0.0, 0.0), h / 5.0, velocity[0])
     w4 = add_scaled(way, -h / 5.0, velocity[1])
     store(w[0], (0.0, 0.0, 0.0))
@@ -36,7 +36,7 @@ def fit_segment(ball, way, velocity, rate, spin_rate):
     store(w[3], add_scaled(add_scaled(w4, -h / 5.0, velocity[1]), h * h / 20.0, rate[1]))
     store(w[4], w4)
     store(w[5], way)
-    s = ball['twist']
+    s = ball['spin_coefficients']
     store(s[0], load(ball['spin']))
     store(s[1], add_scaled(load(ball['spin']), h / 3.0, spin_rate[0]))
     store(s[2], add_scaled(load(s[3]), -h / 3.0, spin_rate[1]))
@@ -47,7 +47,7 @@ def position(ball, time):
     """Position `time` after the start of the piece."""
     t = time / ball['span']
     s = 1.0 - t
-    w = ball['path']
+    w = ball['position_coefficients']
     b1 = 5.0 * s * s * s * s * t
     b2 = 10.0 * s * s * s * t * t
     b3 = 10.0 * s * s * t * t * t
@@ -64,7 +64,7 @@ def velocity(ball, time):
     """Velocity `time` after the start of the piece."""
     t = time / ball['span']
     s = 1.0 - t
-    w = ball['path']
+    w = ball['position_coefficients']
     k = 5.0 / ball['span']
     c0 = k * s * s * s * s
     c1 = k * 4.0 * s * s * s * t
@@ -84,7 +84,7 @@ def spin(ball, time):
     """Spin `time` after the start of the piece."""
     t = time / ball['span']
     s = 1.0 - t
-    w = ball['twist']
+    w = ball['spin_coefficients']
     b0 = s * s * s
     b1 = 3.0 * s * s * t
     b2 = 3.0 * s * t * t
@@ -97,7 +97,7 @@ def spin(ball, time):
 @kernel
 def acceleration_coefficient(ball, i):
     """Acceleration's Bernstein coefficient `i` (0 to 3) of the piece."""
-    w = ball['path']
+    w = ball['position_coefficients']
     k = 20.0 / (ball['span'] * ball['span'])
     second = sub(sub(load(w[i + 2]), load(w[i + 1])), sub(load(w[i + 1]), load(w[i])))
     return k * second[0], k * second[1], k * second[2]
@@ -116,7 +116,7 @@ def greatest_acceleration(ball):
 @kernel
 def greatest_speed(ball):
     """Bound on the speed over the piece."""
-    w = ball['path']
+    w = ball['position_coefficients']
     most = 0.0
     for i in range(5):
         step = sub(load(w[i + 1]), load(w[i]))
@@ -138,7 +138,7 @@ def extent_along(ball, axis):
     """Least and greatest coordinate on `axis` that the piece can reach."""
     low = 0.0
     high = 0.0
-    w = ball['path']
+    w = ball['position_coefficients']
     for i in range(1, 6):
         low = min(low, w[i, axis])
         high = max(high, w[i, axis])
@@ -148,7 +148,7 @@ def extent_along(ball, axis):
 @kernel
 def plane_gap_coefficients(ball, normal, first):
     """Bernstein coefficients of the piece's height over a plane of `normal`, `first` at its start."""
-    w = ball['path']
+    w = ball['position_coefficients']
     return (first, first + dot(load(w[1]), normal), first + dot(load(w[2]), normal),
             first + dot(load(w[3]), normal), first + dot(load(w[4]), normal),
             first + dot(load(w[5]), normal))
@@ -184,12 +184,12 @@ def stay_in_place(ball):
     """Make the piece stand still with the ball's spin, for `span`."""
     ball['span'] = 1.0
     store(ball['origin'], load(ball['position']))
-    ball['path'][:, :] = 0.0
+    ball['position_coefficients'][:, :] = 0.0
     for i in range(4):
-        store(ball['twist'][i], load(ball['spin']))
+        store(ball['spin_coefficients'][i], load(ball['spin']))
 
 
 @kernel
 def control_point(ball, i):
     """Control point `i` of the piece, in the course frame."""
-    return add(load(ball['origin']), load(ball['path'][i]))
+    return add(load(ball['origin']), load(ball['position_coefficients'][i]))

@@ -16,14 +16,14 @@ APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a f
 
 @kernel
 def update_apex(ball):
-    """Keep the greatest height that the ball reaches in flight before its first contact. Writes highest."""
+    """Keep the greatest height that the ball reaches in flight before its first contact. Writes apex."""
     if ball['phase'] != FLIGHT or ball['landed']:
         return
-    if segment.extent_along(ball, 2)[1] <= ball['highest']:
+    if segment.extent_along(ball, 2)[1] <= ball['apex']:
         return
     time = ball['end'] - ball['begin']
     start = segment.position(ball, 0.0)[2]
-    ball['highest'] = max(ball['highest'], max(start, segment.position(ball, time)[2]))
+    ball['apex'] = max(ball['apex'], max(start, segment.position(ball, time)[2]))
     low = 0.0
     high = time
     rising = segment.velocity(ball, low)[2]
@@ -46,21 +46,21 @@ def update_apex(ball):
             high = apex
             falling = speed
             moved = -1
-    ball['highest'] = max(ball['highest'], segment.position(ball, apex)[2])
+    ball['apex'] = max(ball['apex'], segment.position(ball, apex)[2])
 
 
 @kernel
 def mark_moved_by_ball(ball):
     """Keep where a ball that nobody struck lay: there it goes back to where it is lost."""
-    if not ball['playing'] and ball['phase'] == REST:
-        ball['knocked'] = 1
+    if not ball['shot_active'] and ball['phase'] == REST:
+        ball['moved_by_ball'] = 1
         store(ball['struck_at'], load(ball['position']))
 
 
 @kernel
 def record_landing(ball, now):
     """Keep where and how a struck ball first touches the ground. Writes landing."""
-    if ball['playing'] and not ball['landed'] and ball['phase'] == FLIGHT:
+    if ball['shot_active'] and not ball['landed'] and ball['phase'] == FLIGHT:
         ball['landed'] = 1
         ball['landing'] = now
         store(ball['landed_at'], load(ball['position']))
@@ -69,14 +69,14 @@ def record_landing(ball, now):
 
 @kernel
 def end_shot(ball, number, now, kind, log):
-    """Log the end of the ball's shot, or that it is lost: `kind`. Writes playing, ended."""
+    """Log the end of the ball's shot, or that it is lost: `kind`. Writes shot_active, ended."""
     ball['ended'] = now
     if moves(ball['phase']):
         ball['over_time'] = 1
         ball['phase'] = REST
         store(ball['velocity'], ZERO)
         store(ball['spin'], ZERO)
-    ball['playing'] = 0
+    ball['shot_active'] = 0
     event = next_event(log)
     event['time'] = now
     event['ball'] = number
@@ -86,14 +86,14 @@ def end_shot(ball, number, now, kind, log):
 
 @kernel
 def check_segment(ball, now):
-    """Why the ball can't go on with the piece that it has got at `now`, or 0. Writes counted_from, pieces."""
-    passed = max(now - ball['counted_from'], 0.0)
-    ball['counted_from'] = now
-    ball['pieces'] = max(ball['pieces'] - SUSTAINED_WORK * passed, 0.0) + 1.0
-    if ball['pieces'] > MOST_WORK:
+    """Why the ball can't go on with the piece that it has got at `now`, or 0. Writes counted_until, segments_spent."""
+    passed = max(now - ball['counted_until'], 0.0)
+    ball['counted_until'] = now
+    ball['segments_spent'] = max(ball['segments_spent'] - SUSTAINED_WORK * passed, 0.0) + 1.0
+    if ball['segments_spent'] > MOST_WORK:
         return TOO_MUCH_WORK
-    w = ball['path']
-    s = ball['twist']
+    w = ball['position_coefficients']
+    s = ball['spin_coefficients']
     total = ball['end'] - ball['begin'] + ball['span']
     for k in range(3):
         total += w[1, k] + w[2, k] + w[3, k] + w[4, k] + w[5, k] + s[1, k] + s[2, k] + s[3, k]
@@ -115,11 +115,11 @@ def fail(ball, number, now, why, log):
     """End the way of a ball that can't go on, where it was struck. Writes motion, phase, failed; logs it."""
     ball['failed'] = why
     ball['phase'] = FAILED
-    ball['knocked'] = 0
+    ball['moved_by_ball'] = 0
     store(ball['position'], load(ball['struck_at']))
     store(ball['velocity'], ZERO)
     store(ball['spin'], ZERO)
-    end_shot(ball, number, now, SHOT_ENDS if ball['playing'] else LOST, log)
+    end_shot(ball, number, now, SHOT_ENDS if ball['shot_active'] else LOST, log)
 
 
 @kernel
@@ -133,7 +133,7 @@ def copy_result(ball, end):
     store(end['struck_at'], load(ball['struck_at']))
     store(end['launch'], load(ball['launch']))
     store(end['launch_spin'], load(ball['launch_spin']))
-    end['highest'] = ball['highest']
+    end['apex'] = ball['apex']
     end['landed'] = ball['landed']
     end['landing'] = ball['landing']
     store(end['landed_at'], load(ball['landed_at']))
@@ -163,12 +163,12 @@ def log_out_of_bounds(ball, number, now, log):
 @entry
 def begin_shot(ball, now):
     """Begin a shot with the ball's velocity and spin at `now`. Writes what is kept of a shot."""
-    ball['playing'] = 1
-    ball['knocked'] = 0
+    ball['shot_active'] = 1
+    ball['moved_by_ball'] = 0
     ball['struck'] = now
     ball['end'] = now
     ball['ending'] = LAUNCH
-    ball['highest'] = ball['position'][2]
+    ball['apex'] = ball['position'][2]
     store(ball['struck_at'], load(ball['position']))
     store(ball['launch'], load(ball['velocity']))
     store(ball['launch_spin'], load(ball['spin']))
@@ -176,5 +176,5 @@ def begin_shot(ball, now):
     ball['bounces'] = 0
     ball['over_time'] = 0
     ball['failed'] = 0
-    ball['counted_from'] = now
-    ball['pieces'] = 0.0
+    ball['counted_until'] = now
+    ball['segments_spent'] = 0.0

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The journal as a file format: what it was in older versions, read for good.
+
+Format 1, of versions that wrote none: the fields of a ball in a strike's `balls` had other names. The numbers
+are the same.
+"""
+FORMAT = 2
+
+# Fields of a ball, by format 1 and since format 2.
+RENAMED = {
+    'tail_end': 'micro_bounce_end', 'tail_press': 'micro_bounce_load', 'tail_air': 'micro_bounce_air',
+    'piled': 'time_stepping', 'calm': 'still_steps', 'held': 'held_by', 'braking': 'rolling_loss',
+    'reach': 'contact_reach', 'watch': 'watches_neighbours', 'leans': 'sleeps_on_ball',
+    'pressing': 'stored_count', 'pressed_by': 'stored_partners', 'pressed': 'stored_impulses',
+    'path': 'position_coefficients', 'twist': 'spin_coefficients', 'rated': 'last_stage_time',
+    'playing': 'shot_active', 'knocked': 'moved_by_ball', 'highest': 'apex', 'stalled': 'rapid_impacts',
+    'stuck': 'zero_length_segments', 'counted_from': 'counted_until', 'pieces': 'segments_spent',
+}
+
+
+def current(entry):
+    """An entry of a journal of any format as one of this format."""
+    balls = entry.get('balls')
+    if entry['kind'] != 'strike' or not isinstance(balls, dict):
+        return entry
+    return {**entry, 'balls': {name: renamed(ball) for name, ball in balls.items()}}
+
+
+def renamed(ball):
+    """The fields of a ball by their names of today."""
+    return {RENAMED.get(name, name): value for name, value in ball.items()} if isinstance(ball, dict) else ball
