@@ -19,8 +19,8 @@ from .mechanics.vector import ZERO
 from .result import Collision, COLLISION_KINDS, failure, objection, result, three
 from .scene import kernel_model as model_
 from .scene.presets import preset
-from .state.ball import (BALL, FAILED, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, Phase, REST, ROLL, SLIDE, STEP_END,
-                         WATER, moves)
+from .state.ball import (BALL, FAILED, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, Phase, REST, ROLL, SLIDE,
+                         STEP_END, WATER, moves)
 from .state.events import BALL_HIT, WENT_OUT, LOST, SHOT_ENDS, WATER_HIT, new_log
 from .state.serialize import plain, plain_rows, restored
 from .trajectory.shot_record import NOT_FINITE, fail, begin_shot
@@ -283,7 +283,8 @@ class World:
             trial['strokes'] = 0
         self._balls[number] = trial
         ball['phase'], ball['end'] = REST, inf
-        for name in ('shot_active', 'moved_by_ball', 'water', 'sleeps_on_ball', 'time_stepping', 'micro_bounce_end'):
+        for name in ('shot_active', 'moved_by_ball', 'water', 'sleeps_on_ball', 'time_stepping',
+                     'micro_bounce_end'):
             ball[name] = 0
         ball['struck'], ball['struck_at'] = self._now, ball['position']
 
@@ -356,7 +357,8 @@ class World:
             if self._program:
                 self._take_over()
             self._now = 0.0
-            self._workspace.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
+            # where balls are near each other is found out anew
+            self._workspace.count[TREE_AGE] = len(self.names)
 
     def set_wind(self, wind):
         """Let the air move with `wind` [m/s] at 10 m over the ground from now on.
@@ -487,7 +489,8 @@ class World:
         self._workspace.count[TREE_AGE] = len(self.names)  # where it was is not where it will be
         is_held = ball['phase'] == FAILED or three(ball['struck_at']) == self._pegs[number]
         ball['phase'], ball['end'] = REST, inf
-        ball['shot_active'] = ball['moved_by_ball'] = ball['water'] = ball['sleeps_on_ball'] = ball['time_stepping'] = 0
+        for field in ('shot_active', 'moved_by_ball', 'water', 'sleeps_on_ball', 'time_stepping'):
+            ball[field] = 0
         for x, y, z, lower in spots(three(ball['struck_at']), self._model.land.ball.radius):
             if self._is_free(number, (x, y, z)):
                 start = x, y, z + lower

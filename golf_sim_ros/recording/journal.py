@@ -42,8 +42,8 @@ class Journal:
     def config(self, world, parameters, start):
         """What the play is made of. `start`: ROS time [ns] at which simulated time began."""
         course = {'name': world.course.name, 'path': world.course.path, 'digest': world.course.digest}
-        self.note('config', 0, format=FORMAT, version=__version__, course=course, parameters=parameters, start=start,
-                  made_with=made_with())
+        self.note('config', 0, format=FORMAT, version=__version__, course=course, parameters=parameters,
+                  start=start, made_with=made_with())
 
     def strike(self, tick, shot, name, strike, state):
         """Strike number `shot`; `strike` is (velocity, spin), `state` that of the world just before."""

@@ -28,4 +28,6 @@ def current(entry):
 
 def renamed(ball):
     """The fields of a ball by their names of today."""
-    return {RENAMED.get(name, name): value for name, value in ball.items()} if isinstance(ball, dict) else ball
+    if not isinstance(ball, dict):
+        return ball  # whoever restores it says that it is none
+    return {RENAMED.get(name, name): value for name, value in ball.items()}

@@ -8,7 +8,8 @@ from ..state.ball import HOLED, BALL_IMPACT, STEPPED, REST, STEP_END, moves
 from ..trajectory import segment
 from . import ball_interactions
 from .broad_phase import next_node
-from .conservative_advancement import MOST_ADVANCES, SHORT_BOX, TANGENTIAL, TOUCH, swept_box, is_long, advancement_bound
+from .conservative_advancement import (MOST_ADVANCES, SHORT_BOX, TANGENTIAL, TOUCH, swept_box, is_long,
+                                       advancement_bound)
 from .ground_contact import RESTING_GAP
 from .workspace import MultiBallWorkspace
 
@@ -115,16 +116,21 @@ def time_of_impact_of_balls(a, b, bend, radius, begin, until):
 @kernel
 def is_left_to_time_stepping(ball, other, radius, now):
     """Whether the contact of a piled ball with another one is left to the pile."""
+    if not ball['time_stepping']:
+        return False
     if ball['time_stepping'] == STEPPED and other['time_stepping'] == STEPPED:
         return True
     gap, rate, _ = gap_between(ball, other, radius, now)
-    return gap < RESTING_GAP and (other['phase'] == REST or other['time_stepping'] and rate > -RESTING_APPROACH)
+    rests = other['phase'] == REST or other['time_stepping'] and rate > -RESTING_APPROACH
+    return gap < RESTING_GAP and rests
 
 
 @kernel
 def within_contact_reach(ball):
     """Whether a ball of a pile touches nothing on its piece but what its contacts hold it off."""
-    return ball['time_stepping'] == STEPPED and length(load(ball['position_coefficients'][5])) <= ball['contact_reach']
+    if ball['time_stepping'] != STEPPED:
+        return False
+    return length(load(ball['position_coefficients'][5])) <= ball['contact_reach']
 
 
 @ball_interactions.first_ball_contact.register(MultiBallWorkspace)
@@ -153,8 +159,8 @@ def interrupt_segments_at(work, balls, i, radius, now):
     while at >= 0:
         j = work.nodes[at]['ball']
         other = balls[j]
-        if moves(other['phase']) and other['end'] > now and not (other['time_stepping']
-                                                                 and is_left_to_time_stepping(other, ball, radius, now)):
+        is_under_way = moves(other['phase']) and other['end'] > now
+        if is_under_way and not is_left_to_time_stepping(other, ball, radius, now):
             bend = stray + acceleration_deviation(other, usual)
             time, touches = time_of_impact_of_balls(other, ball, bend, radius, now, other['end'])
             if touches or time < other['end']:
@@ -197,7 +203,8 @@ def first_ball_impact(work, balls, i, radius, now):
         j = work.nodes[at]['ball']
         # What is in one pile, or asleep beside it, is held by its contacts.
         other = balls[j]
-        if j != i and other['phase'] != HOLED and not (ball['time_stepping'] and is_left_to_time_stepping(ball, other, radius, now)):
+        is_there = j != i and other['phase'] != HOLED
+        if is_there and not is_left_to_time_stepping(ball, other, radius, now):
             last = min(best, other['end'])
             bend = stray + acceleration_deviation(other, usual)
             if last >= now and not cannot_touch(here, other, bend, radius, now, last):

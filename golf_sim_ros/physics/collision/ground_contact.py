@@ -14,10 +14,10 @@ from ..geometry.plane_patch import FLUSH
 from ..jit import kernel, shared
 from ..mechanics.vector import add_scaled, dot, length, load
 from ..state.ball import NO_PART
-from ..trajectory.segment import (acceleration_bounds, control_point, greatest_acceleration, greatest_speed, plane_gap, plane_gap_coefficients,
-                                  position, velocity)
-from .conservative_advancement import (MOST_ADVANCES, NEVER, PLAIN_APPROACH, RISING, SHORT_BOX, TANGENTIAL, TOUCH, swept_box,
-                                       is_long, advancement_bound)
+from ..trajectory.segment import (acceleration_bounds, control_point, greatest_acceleration, greatest_speed,
+                                  plane_gap, plane_gap_coefficients, position, velocity)
+from .conservative_advancement import (MOST_ADVANCES, NEVER, PLAIN_APPROACH, RISING, SHORT_BOX, TANGENTIAL,
+                                       TOUCH, swept_box, is_long, advancement_bound)
 HOLDING_GAP = 1e-7  # m: surfaces nearer than this hold a caught ball
 RESTING_GAP = 5e-5  # m: the same in a pile, of balls too
 GENTLE_APPROACH = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
@@ -53,7 +53,7 @@ def plane_gap_bounds(ground, part, ball, radius):
 
 @kernel
 def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
-    """`advancement_bound` over a part with hollows of curvature `hollow`, `distance` from the ball's centre."""
+    """`advancement_bound` over a part with hollows of that curvature, `distance` from the ball's centre."""
     sure = (gap if gap > TOUCH else ESCAPE) / (fastest + 1e-9)
     tube = 0.5 / hollow - distance
     if tube <= 0.0:
@@ -139,7 +139,7 @@ def time_of_impact(ground, part, ball, radius, begin, until):
                 if time >= until:
                     return until, False
                 continue
-            # An edge is known to FLUSH, so is its direction to FLUSH over the radius: `separation_time` tells.
+            # An edge is known to FLUSH, its direction to FLUSH over the radius: `separation_time` tells.
             grazing = TANGENTIAL + FLUSH / radius * length(velocity(ball, time))
             if rate < -grazing or time > 0.0 and rate <= 0.0:
                 return time, True

@@ -28,8 +28,8 @@ INVOLVED, CONTACTS, TREE_AGE, ASLEEP = range(4)
 class MultiBallWorkspace(NamedTuple):
     """Workspace of an engine whose balls touch each other: that of `SingleBallWorkspace`, and the tree.
 
-    ``nodes``: depth first; ``leaves``: each ball's node; ``order``: scratch of its making; ``neighbours``: balls
-    around the one at hand.
+    ``nodes``: depth first; ``leaves``: each ball's node; ``order``: scratch of its making; ``neighbours``:
+    balls around the one at hand.
     """
 
     segment_ends: np.ndarray

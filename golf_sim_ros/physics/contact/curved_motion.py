@@ -182,7 +182,7 @@ def time_to_change(land, ball, force, press):
 def step_share_to_change(land, ball, v, slipping, holding, held):
     """Share of the step that goes no further than to where the equations change, or 1.
 
-    ``holding``, ``held_by``: the press that keeps the ball on the ground, at the start and at the end.
+    ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the end.
     """
     if held < -LIFTS * holding:
         return max(holding / (holding - held), 0.01)
@@ -238,7 +238,7 @@ def project_to_ground(land, ball):
     force, torque, press, _ = contact_rates(land, ball, end, velocity, spin)
     first = ball['stages'][0]
     fit_segment(ball, way, (load(ball['velocity']), velocity), (load(first[3:6]), force),
-        (load(first[6:9]), torque))
+                (load(first[6:9]), torque))
     return press
 
 

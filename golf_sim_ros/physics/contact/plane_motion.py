@@ -14,7 +14,8 @@ from ..mechanics import coulomb_deceleration
 from ..mechanics.impulse import slip
 from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, sub, load
 from ..state.ball import BALL_STOPS, SLIDE, SLIP_STOPS, STEP_END
-from ..trajectory.equations_of_motion import LEAST_SPEED, micro_bounce_forces, rolling_deceleration, material_under, rolling_needs
+from ..trajectory.equations_of_motion import (LEAST_SPEED, micro_bounce_forces, rolling_deceleration,
+                                              material_under, rolling_needs)
 from ..trajectory.segment import fit_segment, position
 from .contact_state import in_micro_bounces
 
@@ -120,7 +121,8 @@ def fit_glide(land, ball, motion, coast, q, turning, unwinding):
     winding = scale(-sign * unwinding if turning != 0.0 else 0.0, normal)
     ball['span'] = time
     store(ball['origin'], load(ball['position']))
-    store(ball['spin_coefficients'][3], add_scaled(scale(1.0 / r, cross(normal, add_scaled(v1, -keep, u1))), sign * left, normal))
+    store(ball['spin_coefficients'][3], add_scaled(
+        scale(1.0 / r, cross(normal, add_scaled(v1, -keep, u1))), sign * left, normal))
     fit_segment(ball, way, (v0, v1), (a0, a1),
-        (add(scale(1.0 / r, cross(normal, add_scaled(a0, -keep, du0))), winding),
-         add(scale(1.0 / r, cross(normal, add_scaled(a1, -keep, du1))), winding)))
+                (add(scale(1.0 / r, cross(normal, add_scaled(a0, -keep, du0))), winding),
+                 add(scale(1.0 / r, cross(normal, add_scaled(a1, -keep, du1))), winding)))

@@ -75,7 +75,7 @@ def step_to_alignment(arrow, change, blunt, wanted):
 
 @shared
 def slowed(turning, closing, off, blunt, wanted):
-    """`step_to_alignment`, where it cuts the step; apart, or processors would divide and take the root each time."""
+    """`step_to_alignment`, where it cuts the step; apart, or a root would be taken each time."""
     ahead = closing / turning
     width = sqrt((max(off - closing * ahead, 0.0) + blunt * blunt) / turning)
     return min(max(0.5 * abs(ahead), width, BRIEF), wanted)

@@ -33,5 +33,6 @@ def drag_and_lift(push, flow, ratio, drag, lift):
 def spin_axis_terms(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook where drag or lift by a published law turns about."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
-    wanted = protocol.step_to_alignment(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
+    wanted = protocol.step_to_alignment(cross(flow.spin, flow.velocity),
+                                        cross(flow.spin, force), blunt, wanted)
     return protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted)

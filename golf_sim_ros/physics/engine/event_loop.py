@@ -19,12 +19,13 @@ from ..response.contact_set import clear_set, add_to_set
 from ..response.ground_impact import cross_border, resolve_ground_impact
 from ..response.water_impact import sink, leave_water, has_ended_in_water, resolve_water_impact
 from ..response.wedged_ball import step_wedged, is_wedged
-from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, HOLED, LAUNCH, BALL_IMPACT, OUT, REST,
-                          SLIP_STOPS, WATER_ENTRY, STEP_END, TIME_LIMIT, WATER, moves)
+from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, HOLED, LAUNCH,
+                          BALL_IMPACT, OUT, REST, SLIP_STOPS, WATER_ENTRY, STEP_END, TIME_LIMIT, WATER, moves)
 from ..state.events import LOST, SHOT_ENDS
-from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, check_segment, is_finite, copy_result, update_apex,
-                                      begin_shot, log_out_of_bounds)
-from .planner import LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_next_segment, read_segment, stop_slip
+from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, check_segment, is_finite, copy_result,
+                                      update_apex, begin_shot, log_out_of_bounds)
+from .planner import (LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_next_segment, read_segment,
+                      stop_slip)
 
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'

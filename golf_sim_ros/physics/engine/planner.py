@@ -6,7 +6,8 @@ from ..collision.ball_gap import within_contact_reach
 from ..collision.border_crossing import first_border_crossing
 from ..collision.ground_contact import WEDGED, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_ground_contact
 from ..collision.water_entry import first_water_entry
-from ..contact.contact_state import heading, contact_material_number, choose_contact_mode, set_support, remove_slip
+from ..contact.contact_state import (heading, contact_material_number, choose_contact_mode, set_support,
+                                     remove_slip)
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment
 from ..effects import flight_rates, gravity_at
@@ -18,7 +19,8 @@ from ..mechanics.vector import ZERO, add_scaled, cross, dot, length, store, scal
 from ..response.ground_impact import cross_border
 from ..response.time_stepping import straight_segment, next_step_time
 from ..response.wedged_ball import wedged_step_length, is_wedged
-from ..state.ball import BORDER_CROSSING, FLIGHT, GROUND_IMPACT, NO_PART, STEPPED, ROLL, SLIDE, WATER_ENTRY, STEP_END, TIME_LIMIT, moves
+from ..state.ball import (BORDER_CROSSING, FLIGHT, GROUND_IMPACT, NO_PART, STEPPED, ROLL, SLIDE, WATER_ENTRY,
+                          STEP_END, TIME_LIMIT, moves)
 from ..trajectory import segment
 from ..trajectory.equations_of_motion import LEAST_SPEED
 
@@ -182,7 +184,8 @@ def put_down(model, ball, position, depth):
         ball['span'] = 1.0
         store(ball['origin'], position)
         segment.fit_segment(ball, way, (way, way), (ZERO, ZERO), (ZERO, ZERO))
-        time, part, hit = first_ground_contact(model.land.ground, ball, model.land.ball.radius, 1.0, IN_THE_AIR)
+        time, part, hit = first_ground_contact(
+            model.land.ground, ball, model.land.ball.radius, 1.0, IN_THE_AIR)
         if hit:
             store(ball['position'], segment.position(ball, time))
     part, normal = surfaces.touched(model.land.ground, load(ball['position']), model.land.ball.radius, ZERO)

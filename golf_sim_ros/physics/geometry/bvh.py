@@ -12,7 +12,7 @@ import numpy as np
 FULL = 4  # things that a leaf may hold
 
 BVH_NODE = np.dtype([('low', 'f8', 3), ('high', 'f8', 3), ('first', 'i8'), ('last', 'i8'), ('skip', 'i8')],
-                align=True)
+                    align=True)
 
 
 def hierarchy(low, high):

@@ -161,7 +161,8 @@ def samples(table, grid, box, point, i):
     x0, y0, x1, y1 = box
     x = x0 + (x1 - x0) * i / (START_SAMPLES - 1.0)
     y = y1 - y0
-    return (sample(table, grid, point, x, y0), sample(table, grid, point, x, y0 + y * 1 / (START_SAMPLES - 1.0)),
+    return (sample(table, grid, point, x, y0),
+            sample(table, grid, point, x, y0 + y * 1 / (START_SAMPLES - 1.0)),
             sample(table, grid, point, x, y0 + y * 2 / (START_SAMPLES - 1.0)),
             sample(table, grid, point, x, y0 + y * 3 / (START_SAMPLES - 1.0)),
             sample(table, grid, point, x, y0 + y * 4 / (START_SAMPLES - 1.0)))

@@ -20,7 +20,8 @@ FLAGSTICK_HEIGHT = 2.13  # m: 7 ft, as the USGA recommends
 
 # A stick of glass fibre that gives way. Estimates: it takes most of the approach, and is smooth; livelier
 # or rougher, 0.35 and 0.2, it would turn back putts of 1.5 m/s that the bare hole takes.
-FLAGSTICK_MATERIAL = Material('flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.05, 0.002, 0.0, color=(1.0, 1.0, 1.0))
+FLAGSTICK_MATERIAL = Material('flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.05, 0.002, 0.0,
+                              color=(1.0, 1.0, 1.0))
 
 
 class Cylinder(NamedTuple):
@@ -62,7 +63,8 @@ def build(shapes, material_number):
         is_sphere = isinstance(shape, Sphere)
         center = shape.center if is_sphere else shape.base
         low, high = solid_box(shape)
-        sort = surface_protocol.FLAGSTICK_SORT if isinstance(shape, Flagstick) else surface_protocol.OBSTACLE_SORT
+        is_flagstick = isinstance(shape, Flagstick)
+        sort = surface_protocol.FLAGSTICK_SORT if is_flagstick else surface_protocol.OBSTACLE_SORT
         rows.append((center, shape.radius, 0.0 if is_sphere else shape.height, is_sphere, sort,
                      material_number[shape.material], low, high))
     return Solids(np.array(rows, SOLID))

@@ -32,7 +32,7 @@ class Ground(NamedTuple):
     surface may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
     ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
     greatest height of the rim, height of the bottom; ``waters`` lie over it all; all ground and water but
-    tilted planes lies between ``lowest`` and ``apex``.
+    tilted planes lies between ``lowest`` and ``highest``.
     """
 
     kinds: tuple
@@ -214,7 +214,7 @@ def look_down(ground, x, y):
 
 @kernel
 def around(point, reach):
-    """Box of half width `contact_reach` around `point`."""
+    """Box of half width `reach` around `point`."""
     box = (reach, reach, reach)
     return add_scaled(point, -1.0, box), add_scaled(point, 1.0, box)
 

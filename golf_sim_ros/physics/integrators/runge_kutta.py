@@ -179,9 +179,11 @@ def step(method, model, ball):
     first = ball['stages'][0]
     final = ball['stages'][last]
     ball['span'] = h
-    ball['last_stage_time'] = -1.0 if brief else ball['begin'] + h  # another table has its last stage elsewhere
+    # Another table has its last stage elsewhere.
+    ball['last_stage_time'] = -1.0 if brief else ball['begin'] + h
     store(ball['origin'], load(ball['position']))
-    store(ball['spin_coefficients'][3], add_scaled(load(ball['spin']), 1.0, (change[6], change[7], change[8])))
+    store(ball['spin_coefficients'][3], add_scaled(
+        load(ball['spin']), 1.0, (change[6], change[7], change[8])))
     fit_segment(ball, (change[0], change[1], change[2]), (load(first[0:3]), load(final[0:3])),
-        (load(first[3:6]), load(final[3:6])), (load(first[6:9]), load(final[6:9])))
+                (load(first[3:6]), load(final[3:6])), (load(first[6:9]), load(final[6:9])))
     ball['ending'] = STEP_END

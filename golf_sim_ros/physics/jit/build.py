@@ -77,7 +77,8 @@ class Build:
         except Unavailable as error:
             self.state, self.reason = BUILD_FAILED, str(error)
         except Exception as error:  # whatever a compiler may raise: plain Python goes on
-            self.state, self.reason = BUILD_FAILED, f'{type(error).__name__}: {" ".join(str(error).split())[:200]}'
+            self.state = BUILD_FAILED
+            self.reason = f'{type(error).__name__}: {" ".join(str(error).split())[:200]}'
         finally:
             self.ended.set()
 

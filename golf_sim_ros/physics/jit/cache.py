@@ -107,7 +107,7 @@ def _temporary():
 
 
 def _opened(path):
-    """`Cache` at `position_coefficients`, which is made, for this user alone, where there is none."""
+    """`Cache` at `path`, which is made, for this user alone, where there is none."""
     try:
         path = Path.cwd() / path
         _check_way(path)
@@ -133,7 +133,7 @@ def _make(path):
 
 
 def _check_way(path):
-    """Raise `_Refused` if others can change what is found at `position_coefficients`; what is not there they cannot.
+    """Raise `_Refused` if others can change what is found at `path`; what is not there they cannot.
 
     Every folder and link on the way has to belong to this user or root. Others may write to none of
     them, but to a temporary folder, where they can't remove what is not theirs (the sticky bit).
@@ -211,7 +211,7 @@ def _is_outside(status):
 
 
 def _unwritable(path):
-    """Why nothing more can be kept in the folder `position_coefficients`, or ''."""
+    """Why nothing more can be kept in the folder `path`, or ''."""
     try:
         with tempfile.TemporaryFile(dir=path, buffering=0) as file:
             full = file.write(bytes(LEAST_SPACE)) < LEAST_SPACE

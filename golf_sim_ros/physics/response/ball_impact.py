@@ -48,7 +48,8 @@ def collide_balls(land, balls, i, now, work, log):
                 return_to_events(ball)
             continue
         ball['rapid_impacts'] = ball['rapid_impacts'] + 1 if stalls else 0
-        if moves(ball['phase']) and (piled and rate > -GENTLE_APPROACH or ball['rapid_impacts'] > MANY_BALL_IMPACTS):
+        joins = piled and rate > -GENTLE_APPROACH or ball['rapid_impacts'] > MANY_BALL_IMPACTS
+        if moves(ball['phase']) and joins:
             begin_time_stepping(ball)
 
 

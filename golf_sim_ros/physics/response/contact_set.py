@@ -130,7 +130,7 @@ def collect_ground_contacts(land, ball, i, work, begin):
     if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(work, begin, load(ball['normal'])):
         normal = load(ball['normal'])
         add_ground_contact(land, ball, i, ball['support'], normal,
-                       contact_material(land, ball, ball['support'], normal), work)
+                           contact_material(land, ball, ball['support'], normal), work)
     low, high = surfaces.around(place, land.ball.radius + SIMULTANEOUS_GAP)
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:

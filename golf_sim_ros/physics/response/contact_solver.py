@@ -14,7 +14,8 @@ from ..contact.contact_state import contact_material, set_support
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, sub, tangential, unit, load
+from ..mechanics.vector import (ZERO, add, add_scaled, cross, dot, length, store, scale, sub, tangential,
+                                unit, load)
 from ..state.ball import HOLED, NO_PART, MOST_STORED, moves
 from .contact_set import is_new_normal, add_contact
 
@@ -37,7 +38,7 @@ def contact_reach(work):
 
 @kernel
 def add_ground_contacts(land, ball, i, work, reach):
-    """Contacts of member `i` with the ground within `contact_reach`. Writes contacts."""
+    """Contacts of member `i` with the ground within `reach`. Writes contacts."""
     begin = work.count[CONTACTS]
     place = load(ball['position'])
     low, high = surfaces.around(place, land.ball.radius + reach)
@@ -45,7 +46,8 @@ def add_ground_contacts(land, ball, i, work, reach):
     while part >= 0:
         distance, normal = surfaces.nearest(land.ground, part, place)
         gap = distance - land.ball.radius
-        if gap <= reach and is_new_normal(work, begin, normal) and surfaces.touchable(land.ground, part, place):
+        is_near = gap <= reach and is_new_normal(work, begin, normal)
+        if is_near and surfaces.touchable(land.ground, part, place):
             row = add_contact(work, i, -1, part, normal)
             if row >= 0:
                 material = contact_material(land, ball, part, normal)
@@ -66,7 +68,7 @@ def init_contact(row, gap, friction):
 
 @kernel
 def neighbours_within(balls, work, i, reach, radius, now):
-    """Balls within `contact_reach` of member number `i`, by number; whether others are on their way.
+    """Balls within `reach` of member number `i`, by number; whether others are on their way.
 
     Writes near, in rising order: what is solved first must not depend on the tree. Returns how many.
     """
@@ -135,9 +137,11 @@ def sweep_positions(work, backward):
         if overlap > 0.0:
             most = max(most, overlap)
             share = 0.5 if row['b'] >= 0 else 1.0
-            store(work.position_change[row['a']], add_scaled(load(work.position_change[row['a']]), share * overlap, normal))
+            store(work.position_change[row['a']], add_scaled(
+                load(work.position_change[row['a']]), share * overlap, normal))
             if row['b'] >= 0:
-                store(work.position_change[row['b']], add_scaled(load(work.position_change[row['b']]), -share * overlap, normal))
+                store(work.position_change[row['b']], add_scaled(
+                    load(work.position_change[row['b']]), -share * overlap, normal))
     return most
 
 
@@ -156,7 +160,7 @@ def warm_start(land, balls, work):
         for k in range(ball['stored_count']):
             if ball['stored_partners'][k] == contact_partner(row):
                 row['normal_impulse'] = ball['stored_impulses'][k, 0]
-                rub = (ball['stored_impulses'][k, 1], ball['stored_impulses'][k, 2], ball['stored_impulses'][k, 3])
+                rub = load(ball['stored_impulses'][k, 1:4])
                 store(row['tangent_impulse'], tangential(rub, load(row['normal'])))
                 apply_normal_impulse(work, row, scale(row['normal_impulse'], load(row['normal'])))
                 apply_tangent_impulse(work, row, load(row['tangent_impulse']), land.ball)

@@ -20,7 +20,8 @@ from .wedged_ball import RAPID, step_wedged, is_wedged
 
 SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
 WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
-HOLLOW_REBOUND = 0.01  # of its speed: the same of a wall that closes around it, or one turn is thousands of bounces
+# Of its speed: the same of a wall that closes around it, or one turn is thousands of bounces.
+HOLLOW_REBOUND = 0.01
 SLOW_FOR_AIR = 8.0  # m/s: slower than this the air hardly matters
 STEADY_RATIO = 0.1  # of 1 - e: what a ratio of rebound to approach may gain by the approach
 LAST_SHARE = 0.1  # of the speed below which bounces are summed
@@ -67,7 +68,10 @@ def resolve_ground_impact(land, balls, i, now, work, log):
     if approach > LEAST_LOGGED_APPROACH:
         log_ground_impact(land, ball, i, now, normal, number, before, log)
     # A single longer piece among many short ones is no way out: on two lips they come in waves.
-    ball['rapid_impacts'] = ball['rapid_impacts'] + 1 if now - ball['begin'] < RAPID else max(ball['rapid_impacts'] - 1, 0)
+    if now - ball['begin'] < RAPID:
+        ball['rapid_impacts'] += 1
+    else:
+        ball['rapid_impacts'] = max(ball['rapid_impacts'] - 1, 0)
     choose_after_impact(land, ball, now, (supported, approach, rebound), normal, material)
     if ball['time_stepping']:
         return_to_events(ball)
@@ -82,7 +86,7 @@ def apply_bounce(land, ball, normal, material):
     felt = effective_normal(land.effects, normal, before, material['softness'])
     e = restitution(material, -dot(before, felt))
     bond = ContactProperties(e, material['tangential_restitution'], material['dynamic_friction'],
-                land.ball.mass, land.ball.inertia)
+                             land.ball.mass, land.ball.inertia)
     apply_impulse(ball, impulse(bond, before, load(ball['spin']), felt, land.ball.radius), felt, land.ball)
     rebound = dot(load(ball['velocity']), normal)
     if rebound < 0.0:  # a tilted normal may send it into the ground: the true surface holds it
@@ -157,7 +161,9 @@ def effective_restitution(land, ball, normal, material, rebound):
     e = (1.0 + restitution(material, into)) * into * dot(felt, normal) / approach - 1.0
     if e - e0 < STEADY_RATIO * (1.0 - e0):
         return e
-    return restitution(material, approach) if rebound < LAST_SHARE * micro_bounce_threshold(land, ball) else 1.0
+    if rebound < LAST_SHARE * micro_bounce_threshold(land, ball):
+        return restitution(material, approach)
+    return 1.0
 
 
 @kernel

@@ -89,7 +89,8 @@ def project_impulses(work):
             momentum = 1.0
         for n in range(count):
             row = contacts[n]
-            row['extrapolated_impulse'] = row['normal_impulse'] + weight * (row['normal_impulse'] - row['previous_impulse'])
+            change = row['normal_impulse'] - row['previous_impulse']
+            row['extrapolated_impulse'] = row['normal_impulse'] + weight * change
 
 
 @kernel
@@ -152,7 +153,8 @@ def apply_impulses(land, balls, work, last):
     for n in range(work.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            bond = ContactProperties(0.0, row['tangential_restitution'], row['friction'], row['mass'], land.ball.inertia)
+            bond = ContactProperties(0.0, row['tangential_restitution'],
+                                     row['friction'], row['mass'], land.ball.inertia)
             rub = friction(bond, row['normal_impulse'], contact_slip(land, balls, row))
             store(row['tangent_impulse'], scale(1.0 / row['contact_count'], rub))
     for n in range(work.count[CONTACTS]):

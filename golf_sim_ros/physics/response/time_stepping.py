@@ -25,8 +25,9 @@ from ..state.ball import FLIGHT, HOLED, JOINED, NO_PART, STEPPED, REST, SLIDE, S
 from ..trajectory.segment import fit_segment
 from ..trajectory.shot_record import mark_moved_by_ball
 from .contact_set import synchronize, add_to_set
-from .contact_solver import (TIME_STEP, add_resting_contact, gap_rate, contact_reach, write_back, add_ground_contacts, count_support,
-                             neighbours_within, correct_positions, solve_contacts, limit_speed)
+from .contact_solver import (TIME_STEP, add_resting_contact, gap_rate, contact_reach, write_back,
+                             add_ground_contacts, count_support, neighbours_within, correct_positions,
+                             solve_contacts, limit_speed)
 from .wedged_ball import MANY_RAPID_IMPACTS, is_wedged
 
 WAKING_APPROACH = 1e-3  # m/s of approach wake a sleeper
@@ -150,7 +151,7 @@ def solve_time_step(land, balls, now, work):
 
 @kernel
 def apply_gravity(land, balls, work, i):
-    """Let gravity act on member `i` up to half-way through its next step. Writes solved_motion and time_stepping."""
+    """Let gravity act on ball `i` up to half-way through its next step. Writes solved_motion, time_stepping."""
     ball = balls[i]
     time = TIME_STEP if ball['time_stepping'] == STEPPED else 0.5 * TIME_STEP
     ball['time_stepping'] = STEPPED
@@ -195,7 +196,8 @@ def choose_after_step(land, ball, now, work):
         left *= DAMPING
     limit_speed(ball, left)
     turning = land.ball.radius * length(load(ball['spin']))
-    ball['still_steps'] = ball['still_steps'] + 1 if left + turning < STILL_SPEED and ball['held_by'] > 0 else 0
+    is_still = left + turning < STILL_SPEED and ball['held_by'] > 0
+    ball['still_steps'] = ball['still_steps'] + 1 if is_still else 0
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
     if ball['still_steps'] > STEPS_TO_SLEEP:

@@ -16,7 +16,8 @@ from ..mechanics.vector import ZERO, add, length, store, load
 from ..state.ball import FLIGHT, NO_PART, REST, SLIDE
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.segment import greatest_acceleration
-from .contact_solver import write_back, add_ground_contacts, count_support, sweep_impulses, sweep_positions, limit_speed
+from .contact_solver import (write_back, add_ground_contacts, count_support, sweep_impulses, sweep_positions,
+                             limit_speed)
 
 RAPID = 1e-6  # s between impacts: of a ball that is being caught they are less
 MANY_RAPID_IMPACTS = 20

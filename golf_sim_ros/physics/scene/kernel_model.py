@@ -23,7 +23,7 @@ class Limits(NamedTuple):
     """How exact to be.
 
     ``settle`` [m/s]: rebounds slower than this are summed in closed form instead of followed one
-    by one; ``position_coefficients`` [m]: how far the curve that ticks read may lie from a closed form.
+    by one; ``path`` [m]: how far the curve that ticks read may lie from a closed form.
     """
 
     settle: float
@@ -71,9 +71,9 @@ def build(course, records, preset):
     Types are cast here, once: a kernel would compile anew for an int in place of a float.
     """
     on_land = speaking(records, protocol.gravity, protocol.contact_normal)
-    return Model(GroundScene(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
-                      preset.limits),
-                 in_flight(records), preset.method)
+    land = GroundScene(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
+                       preset.limits)
+    return Model(land, in_flight(records), preset.method)
 
 
 def in_flight(records):

@@ -37,7 +37,8 @@ class Shot(NamedTuple):
 
 # What ends a piece of path. LAUNCH: the ball was put or struck, and its own state counts. MEETING: of balls.
 # SPLASH: in water, whose number is the target.
-STEP_END, GROUND_IMPACT, BORDER_CROSSING, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, BALL_IMPACT, WATER_ENTRY = range(9)
+(STEP_END, GROUND_IMPACT, BORDER_CROSSING, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, BALL_IMPACT,
+ WATER_ENTRY) = range(9)
 
 NO_PART = -1
 JOINED, STEPPED = 1, 2  # of a ball in a pile: only just, or for a step
@@ -49,21 +50,23 @@ BALL = np.dtype([
     # the contact: part of the ground under it, its material, the normal out of it; until when its
     # bounces, too small to follow one by one, go on, how hard they press meanwhile, over m g, and the
     # acceleration along the ground that the air gives
-    ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('micro_bounce_end', 'f8'), ('micro_bounce_load', 'f8'),
-    ('micro_bounce_air', 'f8', 3),
+    ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('micro_bounce_end', 'f8'),
+    ('micro_bounce_load', 'f8'), ('micro_bounce_air', 'f8', 3),
     # in a pile: whether it is, for how many steps it has been calm, what holds it (1 for the ground, 2
     # for a ball, summed), rolling resistance [m/s]; how far around all contacts are known, and whether other
     # balls are on their way there; asleep: whether it leans on a ball
-    ('time_stepping', 'i8'), ('still_steps', 'i8'), ('held_by', 'i8'), ('rolling_loss', 'f8'), ('contact_reach', 'f8'), ('watches_neighbours', 'i8'),
-    ('sleeps_on_ball', 'i8'),
+    ('time_stepping', 'i8'), ('still_steps', 'i8'), ('held_by', 'i8'), ('rolling_loss', 'f8'),
+    ('contact_reach', 'f8'), ('watches_neighbours', 'i8'), ('sleeps_on_ball', 'i8'),
     # its contacts in the last step: how many, with what, their push and rub over mass [m/s]
-    ('stored_count', 'i8'), ('stored_partners', 'i8', MOST_STORED), ('stored_impulses', 'f8', (MOST_STORED, 4)),
+    ('stored_count', 'i8'), ('stored_partners', 'i8', MOST_STORED),
+    ('stored_impulses', 'f8', (MOST_STORED, 4)),
     # number of the water that it is in, from 1; 0: none
     ('water', 'i8'),
     # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
     # and of the spin; what ends it and on which part of the ground, or at which other ball
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
-    ('position_coefficients', 'f8', (6, 3)), ('spin_coefficients', 'f8', (4, 3)), ('ending', 'i8'), ('target', 'i8'),
+    ('position_coefficients', 'f8', (6, 3)), ('spin_coefficients', 'f8', (4, 3)),
+    ('ending', 'i8'), ('target', 'i8'),
     # the integrator's next step and its stages: rates of position, velocity, spin; when the last
     # of them holds, -1 where something else has moved the ball since
     ('step', 'f8'), ('stages', 'f8', (8, 9)), ('last_stage_time', 'f8'), ('evaluations', 'i8'),
@@ -71,7 +74,8 @@ BALL = np.dtype([
     ('shot_active', 'i8'), ('moved_by_ball', 'i8'), ('shot', 'i8'), ('struck', 'f8'), ('struck_at', 'f8', 3),
     ('launch', 'f8', 3), ('launch_spin', 'f8', 3), ('apex', 'f8'),
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
-    ('bounces', 'i8'), ('rapid_impacts', 'i8'), ('zero_length_segments', 'i8'), ('ended', 'f8'), ('over_time', 'i8'),
+    ('bounces', 'i8'), ('rapid_impacts', 'i8'), ('zero_length_segments', 'i8'), ('ended', 'f8'),
+    ('over_time', 'i8'),
     # why its shot failed; until when its pieces are counted, and how many there were too many of late
     ('failed', 'i8'), ('counted_until', 'f8'), ('segments_spent', 'f8'),
     # how often it was struck since it was teed

@@ -10,8 +10,8 @@ TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
 
 OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its piece
 # What counts of all else if the ball does not move: the rest is written when it sets off.
-STANDING = ('phase', 'support', 'material', 'normal', 'micro_bounce_end', 'micro_bounce_load', 'micro_bounce_air', 'sleeps_on_ball',
-            'strokes')
+STANDING = ('phase', 'support', 'material', 'normal', 'micro_bounce_end', 'micro_bounce_load',
+            'micro_bounce_air', 'sleeps_on_ball', 'strokes')
 PRESSED = ('stored_count', 'stored_partners', 'stored_impulses')  # the same of a ball that is not in a pile
 
 

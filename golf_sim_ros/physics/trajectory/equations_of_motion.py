@@ -66,7 +66,8 @@ def pivoting(ball, material, press, drive, radius, inertia):
 @kernel
 def micro_bounce_forces(ball, normal, press, downhill):
     """How hard a ball presses, and what drives it along the ground, while its last bounces go on."""
-    return ball['micro_bounce_load'] * press, add(downhill, tangential(load(ball['micro_bounce_air']), normal))
+    along_ground = tangential(load(ball['micro_bounce_air']), normal)
+    return ball['micro_bounce_load'] * press, add(downhill, along_ground)
 
 
 @shared
@@ -89,7 +90,8 @@ def contact_rates(land, ball, place, velocity, spin):
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
-    tail = ball['micro_bounce_end'] > ball['begin']  # single impacts do not brake a rolling ball, nor does their sum
+    # single impacts do not brake a rolling ball, nor does their sum
+    tail = ball['micro_bounce_end'] > ball['begin']
     load = press
     if tail:
         load, downhill = micro_bounce_forces(ball, normal, press, downhill)

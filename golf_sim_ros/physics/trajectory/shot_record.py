@@ -86,7 +86,10 @@ def end_shot(ball, number, now, kind, log):
 
 @kernel
 def check_segment(ball, now):
-    """Why the ball can't go on with the piece that it has got at `now`, or 0. Writes counted_until, segments_spent."""
+    """Why the ball can't go on with the segment that it has got at `now`, or 0.
+
+    Writes counted_until, segments_spent.
+    """
     passed = max(now - ball['counted_until'], 0.0)
     ball['counted_until'] = now
     ball['segments_spent'] = max(ball['segments_spent'] - SUSTAINED_WORK * passed, 0.0) + 1.0
