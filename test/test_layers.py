@@ -59,3 +59,30 @@ def imported(path):
         elif isinstance(node, ast.ImportFrom) and node.level == 0:
             found.add(node.module.partition('.')[0])
     return found
+
+
+# Names that every module of a kind has; and laws, which `surfaces` asks of the ground as a whole.
+OF_EACH_KIND = {'record', 'idle', 'dormant', 'INSTEAD_OF', 'METHOD', 'TABLE', 'SHAPES', 'NUMBERED', 'build',
+                'plan', 'heights'}
+SAME_LAW = ({'geometry/surface_protocol.py', 'geometry/surfaces.py'},
+            {'effects/protocol.py', 'effects/__init__.py'})
+
+
+def test_no_name_in_the_physics_has_two_meanings():
+    found = {}
+    for path in PHYSICS:
+        place = path.relative_to(ROOT / 'golf_sim_ros' / 'physics').as_posix()
+        for name in defined(path) if not place.startswith('jit/') else ():
+            found.setdefault(name, set()).add(place)
+    twice = {name: places for name, places in found.items() if len(places) > 1 and places not in SAME_LAW
+             and not name.startswith('_') and name not in OF_EACH_KIND}
+    assert not twice
+
+
+def defined(path):
+    """Module-level names that the file at `path` defines."""
+    for node in ast.parse(path.read_text(encoding='utf-8')).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            yield node.name
+        for target in node.targets if isinstance(node, ast.Assign) else ():
+            yield from (name.id for name in ast.walk(target) if isinstance(name, ast.Name))

@@ -13,8 +13,8 @@ from .trajectory.shot_record import SUSTAINED_WORK, TOO_MUCH_WORK, MOST_WORK, NO
 class Collision(NamedTuple):
     """An impact of more than 0.1 m/s approach; SI units, the course's frame.
 
-    ``kind`` is one of `COLLISION_KINDS`, ``with_`` a material's or a ball's name, ``normal`` points out of what
-    was hit and ``impulse`` [N s] acted on ``ball``.
+    ``kind`` is one of `COLLISION_KINDS`, ``with_`` the name of a material or a ball, ``normal`` points out of
+    what was hit and ``impulse`` [N s] acted on ``ball``.
     """
 
     time: float

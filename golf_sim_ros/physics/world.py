@@ -10,7 +10,7 @@ import numpy as np
 from .collision.ground_contact import RESTING_GAP
 from .collision.workspace import TREE_AGE, INVOLVED, new_workspace
 from .effects import Scene, choose
-from .engine.engines import PYTHON, Program, checked_engine, compiled
+from .engine.engines import PYTHON, Program, checked_engine, compiled_engine
 from .engine.event_loop import LOG_FULL, STAGES
 from .geometry import surfaces
 from .geometry.solid import FLAGSTICK_RADIUS, without
@@ -96,7 +96,7 @@ class World:
         self._lost = []  # numbers of balls that are put back when the time asked for has passed
         self._balls = np.zeros(len(self.names), BALL)
         engine = checked_engine(engine)
-        self._engine = compiled() if engine == 'compiled' else PYTHON
+        self._engine = compiled_engine() if engine == 'compiled' else PYTHON
         self._program = None  # of the compiled engine, if that may take over
         self._rebuild()
         self._workspace = new_workspace(len(self.names), 'ball_ball' in self.effects_on)
@@ -107,7 +107,7 @@ class World:
     def _rebuild(self):
         """Choose the effects anew and build the model for kernels."""
         self._choose()
-        self._model = model_.build(self.course, self._records, self._preset)
+        self._model = model_.build_model(self.course, self._records, self._preset)
 
     def _choose(self):
         """Choose the effects, and the records that the engine gets of them."""
@@ -152,7 +152,7 @@ class World:
     @accuracy.setter
     def accuracy(self, accuracy):
         self._preset, self._accuracy = preset(accuracy), accuracy
-        self._model = model_.build(self.course, self._records, self._preset)
+        self._model = model_.build_model(self.course, self._records, self._preset)
         self._begin_new_pieces()
 
     def measure(self):
@@ -187,7 +187,7 @@ class World:
     def engine(self, name):
         self._program = None
         if name != self.engine:
-            self._engine = {'python': PYTHON}.get(name) or compiled()
+            self._engine = {'python': PYTHON}.get(name) or compiled_engine()
             self._rebuild()
 
     @property

@@ -8,7 +8,7 @@ from golf_sim_ros.physics import ACCURACY, Air, EFFECTS, Shot, World, register_e
 from golf_sim_ros.physics.effects import Scene, choose, effective_normal, flight_rates, protocol, gravity_at
 from golf_sim_ros.physics.engine.engines import missing
 from golf_sim_ros.physics.jit import compiled, entry
-from golf_sim_ros.physics.scene.kernel_model import build, ground
+from golf_sim_ros.physics.scene.kernel_model import build_model, ground
 import numpy as np
 from other_process import run
 import pytest
@@ -108,7 +108,7 @@ def answers(name):
     speeds = ((0, 0, 0), (1e-9, 0, 0), (0.1, 0, -0.1), (70, 3, 14), (0, 0, -30), (0, 0, 30), (150, 0, 0))
     spins = ((0, 0, 0), (1e-9, 0, 0), (0, -280, 0), (2500, 0, 0), (3, 4, -1000))
     for scene in SCENES.values():
-        model = build(scene.course, [EFFECTS[name].record(scene)], ACCURACY['standard'])
+        model = build_model(scene.course, [EFFECTS[name].record(scene)], ACCURACY['standard'])
         for velocity, spin, height in product(speeds, spins, (0.021335, 40.0)):
             place = (1.0, 2.0, height)
             velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))

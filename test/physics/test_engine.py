@@ -151,7 +151,7 @@ def test_one_program_serves_every_course_with_one_ball_and_one_with_several():
 
 @needs_numba
 def test_another_course_compiles_nothing():
-    entries = engines.compiled()[1:4]
+    entries = engines.compiled_engine()[1:4]
     drive(World(load_course(COURSES[0]), engine='compiled'))
     compiled = [len(entry.signatures) for entry in entries]
     for course in [*map(load_course, COURSES), *OTHER_COURSES.values()]:

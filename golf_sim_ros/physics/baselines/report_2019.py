@@ -75,7 +75,7 @@ def play_report_2019(course, velocities, spins, wind=ZERO):
     world = World(course)
     # Sand is what gives nothing back.
     absorbs = np.array([m.restitution.e0 == 0.0 for m in model_.materials(course)])
-    ends = best(_play)(model_.build(course, records, REPORT_2019), world._balls, strikes, absorbs)
+    ends = best(_play)(model_.build_model(course, records, REPORT_2019), world._balls, strikes, absorbs)
     return ends['landed_at'], ends['position']
 
 

@@ -3,7 +3,7 @@
 from math import sqrt
 
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, add, dot, length, sub, unit, load
+from ..mechanics.vector import UP, ZERO, add, dot, length, sub, unit, load
 from ..state.ball import HOLED, BALL_IMPACT, STEPPED, REST, STEP_END, moves
 from ..trajectory import segment
 from . import ball_interactions
@@ -13,7 +13,6 @@ from .conservative_advancement import (MOST_ADVANCES, SHORT_BOX, TANGENTIAL, TOU
 from .ground_contact import RESTING_GAP
 from .workspace import MultiBallWorkspace
 
-UP = (0.0, 0.0, 1.0)
 MANY_STEPPED = 6  # balls: so many in the box around a stretch of path are worth a shorter stretch
 RESTING_APPROACH = 0.02  # m/s of approach: so much gravity gives in a step of a pile
 

@@ -18,8 +18,8 @@ class SingleBallWorkspace(NamedTuple):
     ``involved_index``: where each ball stands among those, or -1; ``contacts``: theirs; ``contact_counts``:
     active contacts of each ball; ``velocity_change`` [m/s] by the impulses that are tried;
     ``position_change`` [m] that takes overlaps away; ``motion_before`` an impact and ``solved_motion`` of a
-    time step: velocity and spin; ``count``: of involved balls, of contacts, of segments since the tree was built,
-    and whether any ball may be asleep on another; ``spent``: cycles by stage, or empty where nobody asks.
+    time step: velocity and spin; ``count``: of involved balls, of contacts, of segments since the tree was
+    built, and whether any ball may be asleep on another; ``spent``: cycles by stage, empty if nobody asks.
     """
 
     segment_ends: np.ndarray

@@ -6,11 +6,9 @@ still fail.
 """
 from ..geometry.polygon import beside_region
 from ..jit import kernel, shared
-from ..mechanics.vector import length
+from ..mechanics.vector import UP, length
 from ..trajectory.segment import greatest_acceleration, least_acceleration, position, extent_along, velocity
 from .conservative_advancement import MOST_ADVANCES, TANGENTIAL, TOUCH, advancement_bound
-
-UP = (0.0, 0.0, 1.0)
 
 
 @shared

@@ -180,7 +180,7 @@ def sinking(effects, position, velocity):
 
 
 @kernel
-def longest_step(effects, ground, state, force, wanted):
+def longest_allowed_step(effects, ground, state, force, wanted):
     """Longest step [s], `wanted` at most, that can't overlook any effect.
 
     Of a flying ball whose `state` is position, velocity and spin, and that `force` accelerates [m/s^2].

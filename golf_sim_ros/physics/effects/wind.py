@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..geometry.surfaces import ground_height
+from ..geometry.surfaces import ground_level
 from ..jit import kernel
 from ..mechanics.vector import ZERO, store, scale, load
 from . import protocol
@@ -59,7 +59,7 @@ def share(effect, height):
 @kernel
 def from_ground(ground, position):
     """Height [m] of `position` over the ground under it."""
-    return position[2] - ground_height(ground, position[0], position[1])
+    return position[2] - ground_level(ground, position[0], position[1])
 
 
 @protocol.air_velocity.register(Wind)

@@ -13,7 +13,7 @@ from typing import Callable, NamedTuple
 from .. import jit
 from ..jit.build import Build, Part, READY, is_kept, missing
 from .event_loop import advance
-from .orientation import turn
+from .orientation import turn_orientations
 from .planner import put_down
 
 ENGINES = 'auto', 'python', 'compiled'
@@ -27,16 +27,16 @@ class Engine(NamedTuple):
 
     name: str
     advance: Callable
-    turn: Callable
+    turn_orientations: Callable
     put_down: Callable
     keeps_dormant: bool
 
 
-PYTHON = Engine('python', advance, turn, put_down, False)
+PYTHON = Engine('python', advance, turn_orientations, put_down, False)
 
 
 @lru_cache(maxsize=None)
-def compiled():
+def compiled_engine():
     """The compiled `Engine`; `jit.Unavailable` where there is none."""
     return Engine('compiled', *map(jit.compiled, PYTHON[1:4]), True)
 

@@ -9,7 +9,7 @@ UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 
 @entry
-def turn(orientations, balls, time):
+def turn_orientations(orientations, balls, time):
     """Let the `balls` that move turn for `time` [s] with their present spin.
 
     Writes orientations, (n, 4), quaternions x, y, z, w: products of the turn and what they were, brought

@@ -176,7 +176,7 @@ def nearest_on_rim(cup, point):
 
 
 @kernel
-def from_axis(cup, point):
+def polar_from_axis(cup, point):
     """Distance of `point` from the axis, and cosine and sine of its direction."""
     dx = point[0] - cup['center'][0]
     dy = point[1] - cup['center'][1]
@@ -204,7 +204,7 @@ def _next_part(kind, part, low, high):
 @surface_protocol.nearest.register(Cups)
 def _nearest(kind, part, point):
     cup = kind.cups[part // 2]
-    away, c, s = from_axis(cup, point)
+    away, c, s = polar_from_axis(cup, point)
     if part % 2 == 1:
         over = point[2] - cup['bottom']
         beyond = max(away - cup['radius'], 0.0)
@@ -226,7 +226,7 @@ def _turn(kind, part, point, velocity):
     cup = kind.cups[part // 2]
     if part % 2 == 1:
         return 0.0, 0.0, 0.0
-    away, c, s = from_axis(cup, point)
+    away, c, s = polar_from_axis(cup, point)
     if point[2] <= rim_height(cup, c, s):
         around = (-s, c, 0.0)
         return scale(-dot(velocity, around) / max(away, PLANE_ROUNDING), around)
@@ -249,14 +249,14 @@ def _touchable(kind, part, point):
     cup = kind.cups[part // 2]
     if part % 2 == 1:
         return point[2] >= cup['bottom']
-    away, c, s = from_axis(cup, point)
+    away, c, s = polar_from_axis(cup, point)
     return away <= cup['radius'] or point[2] > rim_height(cup, c, s)
 
 
 @surface_protocol.flat_under.register(Cups)
 def _flat_under(kind, part, point):
     cup = kind.cups[part // 2]
-    away, _, _ = from_axis(cup, point)
+    away, _, _ = polar_from_axis(cup, point)
     return part % 2 == 1 and away <= cup['radius'] + PLANE_ROUNDING
 
 

@@ -220,7 +220,7 @@ def around(point, reach):
 
 
 @kernel
-def ground_height(ground, x, y):
+def ground_level(ground, x, y):
     """Height [m] of the highest surface at `x`, `y`; 0 where there is none."""
     z, part = top(ground, x, y)
     return z if part >= 0 else 0.0

@@ -30,4 +30,4 @@ for _module in pkgutil.iter_modules(__path__):
 @shared
 def step(model, ball):
     """Lay the ball's next piece: one step of the model's method. Writes curve, span, step, ending."""
-    runge_kutta.step(model.method, model, ball)
+    runge_kutta.step_by(model.method, model, ball)

@@ -14,7 +14,7 @@ class SemiImplicitEuler(NamedTuple):
     length: float
 
 
-@runge_kutta.step.register(SemiImplicitEuler)
+@runge_kutta.step_by.register(SemiImplicitEuler)
 def _step(method, model, ball):
     h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
     runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))

@@ -4,7 +4,7 @@ from math import inf, sqrt
 
 import numpy as np
 
-from ..effects import longest_step, gravity_at, wind_at
+from ..effects import longest_allowed_step, gravity_at, wind_at
 from ..jit import generic, kernel
 from ..mechanics.vector import add_scaled, dot, length, store, sub, load
 from ..state.ball import FLIGHT, STEP_END
@@ -131,7 +131,7 @@ def longest(model, ball, wanted):
     if ball['phase'] != FLIGHT:
         return wanted
     state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
-    return longest_step(model.effects, model.land.ground, state, load(ball['stages'][0, 3:6]), wanted)
+    return longest_allowed_step(model.effects, model.land.ground, state, load(ball['stages'][0, 3:6]), wanted)
 
 
 @kernel
@@ -151,7 +151,7 @@ def hop(model, ball):
 
 
 @generic
-def step(method, model, ball):
+def step_by(method, model, ball):
     """Lay the next piece: one step from the ball's state. Writes curve, span, step."""
     h = ball['step']
     begins = h == 0.0

@@ -22,7 +22,7 @@ from .kept import keep_compiled
 # That 0 and -0 are one changes results in no more than that, and spares an addition for each silent effect.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
 DISPATCHERS = {}  # by function
-KNOWN = set()  # generics that numba knows
+REGISTERED = set()  # generics that numba knows
 CACHE = cache_.folder()
 
 if CACHE.path and not os.environ.get('NUMBA_CACHE_DIR'):
@@ -45,8 +45,8 @@ def declare():
     for generic in GENERICS:
         for function in (generic.default, *generic.cases.values()):
             unroll(function)
-        if generic not in KNOWN:
-            KNOWN.add(generic)
+        if generic not in REGISTERED:
+            REGISTERED.add(generic)
             declare_generic(generic)
 
 

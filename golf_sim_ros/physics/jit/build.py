@@ -21,7 +21,7 @@ from typing import Callable, NamedTuple
 from . import GENERICS, Unavailable, cache
 
 COMPILING, LOADING, READY, BUILD_FAILED = 'compiling', 'loading', 'ready', 'failed'
-ORDINARY = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
+ORDINARY_LINKING = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
 PROGRAM = 'golf_sim_ros.physics.jit.build'
 LOW = 10  # niceness of a child for which nobody waits: a tenth of what others get, but never nothing
 INSTALL = "pip install numba, in a virtual environment made with 'python3 -m venv --system-site-packages'"
@@ -89,7 +89,8 @@ class Build:
             if not cache.folder().writable:
                 raise Unavailable(cache.folder().reason)
             trouble = self._compile({})
-            if trouble and self._compile(ORDINARY):  # the private parts may be what this numba does not like
+            # The private parts may be what this numba does not like.
+            if trouble and self._compile(ORDINARY_LINKING):
                 raise Unavailable(trouble)
         self.state = LOADING
         run_child(self.job.parts)

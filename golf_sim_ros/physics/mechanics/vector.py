@@ -5,6 +5,7 @@ from math import sqrt
 from ..jit import kernel
 
 ZERO = (0.0, 0.0, 0.0)
+UP = (0.0, 0.0, 1.0)
 
 
 @kernel

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The contacts of one instant: balls that share an impact, what they touch, and what that touches."""
 from ..collision import ball_interactions
-from ..collision.ball_gap import UP, position_at, velocity_at
+from ..collision.ball_gap import position_at, velocity_at
 from ..collision.broad_phase import next_node
 from ..collision.workspace import CONTACTS, MultiBallWorkspace, INVOLVED
 from ..contact.contact_state import contact_material
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, dot, length, store, sub, unit, load
+from ..mechanics.vector import UP, ZERO, dot, length, store, sub, unit, load
 from ..properties.material import restitution
 from ..state.ball import FLIGHT, HOLED, STEP_END, moves
 from ..trajectory.equations_of_motion import LEAST_SPEED

@@ -6,7 +6,7 @@ convex shrinks by no more than its rate says: where no contact closes faster tha
 overlaps at the next instant. Projected Gauss-Seidel finds the impulses, beginning with those of the step
 before. Velocities here are those half-way through a step (leapfrog), and impulses are per mass.
 """
-from ..collision.ball_gap import UP, position_at, velocity_at
+from ..collision.ball_gap import position_at, velocity_at
 from ..collision.broad_phase import next_node
 from ..collision.ground_contact import RESTING_GAP
 from ..collision.workspace import CONTACTS, INVOLVED, MOST_NEIGHBOURS
@@ -14,7 +14,7 @@ from ..contact.contact_state import contact_material, set_support
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import (ZERO, add, add_scaled, cross, dot, length, store, scale, sub, tangential,
+from ..mechanics.vector import (UP, ZERO, add, add_scaled, cross, dot, length, store, scale, sub, tangential,
                                 unit, load)
 from ..state.ball import HOLED, NO_PART, MOST_STORED, moves
 from .contact_set import is_new_normal, add_contact

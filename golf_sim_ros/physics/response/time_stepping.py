@@ -151,7 +151,7 @@ def solve_time_step(land, balls, now, work):
 
 @kernel
 def apply_gravity(land, balls, work, i):
-    """Let gravity act on ball `i` up to half-way through its next step. Writes solved_motion, time_stepping."""
+    """Let gravity act on a ball up to half-way through its next step. Writes solved_motion, time_stepping."""
     ball = balls[i]
     time = TIME_STEP if ball['time_stepping'] == STEPPED else 0.5 * TIME_STEP
     ball['time_stepping'] = STEPPED

@@ -65,7 +65,7 @@ def shapes(course):
     return course.ground + tuple(o for o in course.obstacles if o.material.drag == 0.0)
 
 
-def build(course, records, preset):
+def build_model(course, records, preset):
     """`Model` of `course` with effect `records` and an accuracy `preset`.
 
     Types are cast here, once: a kernel would compile anew for an int in place of a float.
