@@ -72,7 +72,7 @@ COLLISION_KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, b
 STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds',
           Phase.FAILED: 'failed'}
 FAULTS = {NOT_FINITE: 'its motion was not a number any more',
-          TOO_MUCH_WORK: f'its path took more than {MOST_WORK} pieces beyond {SUSTAINED_WORK:.0f} a second'}
+          TOO_MUCH_WORK: f'its path took more than {MOST_WORK} segments beyond {SUSTAINED_WORK:.0f} a second'}
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
 ENDED_AS = np.array([STATUS.get(phase, MOVING) for phase in Phase])

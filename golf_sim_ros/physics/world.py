@@ -153,7 +153,7 @@ class World:
     def accuracy(self, accuracy):
         self._preset, self._accuracy = preset(accuracy), accuracy
         self._model = model_.build_model(self.course, self._records, self._preset)
-        self._begin_new_pieces()
+        self._begin_new_segments()
 
     def measure(self):
         """Keep account from now on of where the engine's time goes; see `spent`."""
@@ -374,10 +374,10 @@ class World:
         self._wind = wind
         self._choose()
         self._model = self._model._replace(effects=model_.in_flight(self._records))
-        self._begin_new_pieces()
+        self._begin_new_segments()
 
-    def _begin_new_pieces(self):
-        """End the pieces of flight now: the surroundings have changed."""
+    def _begin_new_segments(self):
+        """End the segments of flight now: the surroundings have changed."""
         flying = self._balls['phase'] == FLIGHT
         self._balls['end'][flying] = self._now
         self._balls['ending'][flying] = STEP_END
@@ -483,7 +483,7 @@ class World:
     def _drop(self, number, now):
         """Put a lost ball back where it was struck, or beside a ball that lies there by `now`.
 
-        What moves begins new pieces, or it would not see the ball in its way; piles look often enough.
+        What moves begins new segments, or it would not see the ball in its way; piles look often enough.
         """
         ball = self._balls[number]
         self._workspace.count[TREE_AGE] = len(self.names)  # where it was is not where it will be

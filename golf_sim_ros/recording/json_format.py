@@ -7,7 +7,7 @@ from math import isfinite
 import numpy as np
 
 from ..physics.state.ball import BALL
-from ..physics.state.serialize import OF_TICK, plain_of_piece, plain_of_tick
+from ..physics.state.serialize import OF_TICK, plain_of_segment, plain_of_tick
 
 RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time',
           'duration', 'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time',
@@ -53,13 +53,13 @@ def state_text(world):
 
 def ball_text(ball):
     """One JSON object, what `physics.state.plain` tells of a `BALL` record."""
-    return f'{text(plain_of_tick(ball))[:-1]}, {piece_text(ball.tobytes()[TICK_BYTES:])[1:]}'
+    return f'{text(plain_of_tick(ball))[:-1]}, {segment_text(ball.tobytes()[TICK_BYTES:])[1:]}'
 
 
 @lru_cache(maxsize=1000)
-def piece_text(record):
+def segment_text(record):
     """The part that lasts for many ticks; `record` are the bytes after those that a tick writes."""
-    return text(plain_of_piece(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
+    return text(plain_of_segment(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
 
 
 def plain(value, digits=None):

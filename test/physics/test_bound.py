@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bound on a path's pieces: the same end at every rate, in a call of any length, and in many shots.
+"""The bound on a path's segments: the same end at every rate, in a call of any length, and in many shots.
 
 The bound itself is half a minute of plain Python, so that these play with less.
 """
@@ -18,7 +18,7 @@ ALONG, SPIN = (0.0, 2.0, 0.0), (0.0, 0.0, 0.0)
 
 
 def groove():
-    """A course whose tee is in a groove along y: what two surfaces hold takes 5000 pieces a second."""
+    """A course whose tee is in a groove along y: what two surfaces hold takes 5000 segments a second."""
     half = 0.5 ** 0.5
     sides = [Patch((side, 0.0, 1.0), (-side * half, 0.0, half), 0.0, 2.0 / half, 400.0, SMOOTH)
              for side in (1.0, -1.0)]

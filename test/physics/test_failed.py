@@ -98,11 +98,12 @@ def test_a_state_that_is_no_number_ends_its_own_shot_only(field, number):
         assert one.advance(1.0) == []
     world._balls[field][1] = number
     for one in (world, alone):
-        one.set_wind((0.0, 0.0, 0.001))  # pieces begin anew from the state as it is
+        one.set_wind((0.0, 0.0, 0.001))  # segments begin anew from the state as it is
     expected = {result.ball: result for result in played(alone)}
     found = {result.ball: result for result in played(world)}
     assert found['blue'].status == 'failed' and found['blue'].carry == found['blue'].total == 0.0
-    assert found['red'].position == pytest.approx(expected['red'].position, abs=1e-2)  # it begins a new piece
+    # It begins a new segment.
+    assert found['red'].position == pytest.approx(expected['red'].position, abs=1e-2)
     told_well(found['blue'])
     assert world['blue'].phase == Phase.REST and world['blue'].position[:2] == world.course.tee[:1] + (0.25,)
 

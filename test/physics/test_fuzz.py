@@ -11,7 +11,7 @@ from other_process import run
 
 TOOLS = Path(__file__).parents[2] / 'tools'
 SEEDS = (1004, 1009, 1010, 1015, 1016, 1018, 1020, 1024, 1027, 1037, 1038)
-FEW = 2000  # pieces of path: plain Python takes its time
+FEW = 2000  # segments of path: plain Python takes its time
 
 
 def outcomes():

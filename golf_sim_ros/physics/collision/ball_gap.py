@@ -14,18 +14,18 @@ from .ground_contact import RESTING_GAP
 from .workspace import MultiBallWorkspace
 
 MANY_STEPPED = 6  # balls: so many in the box around a stretch of path are worth a shorter stretch
-RESTING_APPROACH = 0.02  # m/s of approach: so much gravity gives in a step of a pile
+RESTING_APPROACH = 0.02  # m/s of approach: so much gravity gives in a time step
 
 
 @kernel
 def position_at(ball, now):
-    """Where the ball is at `now`, on its present piece."""
+    """Where the ball is at `now`, on its present segment."""
     return segment.position(ball, now - ball['begin']) if moves(ball['phase']) else load(ball['position'])
 
 
 @kernel
 def velocity_at(ball, now):
-    """Velocity of the ball at `now`, on its present piece."""
+    """Velocity of the ball at `now`, on its present segment."""
     return segment.velocity(ball, now - ball['begin']) if moves(ball['phase']) else ZERO
 
 
@@ -40,14 +40,14 @@ def gap_between(a, b, radius, now):
 
 @kernel
 def acceleration_at_start(ball):
-    """Acceleration as the ball's piece begins, and how far it strays from that, at most."""
+    """Acceleration as the ball's segment begins, and how far it strays from that, at most."""
     usual = segment.acceleration_coefficient(ball, 0) if moves(ball['phase']) else ZERO
     return usual, acceleration_deviation(ball, usual)
 
 
 @kernel
 def acceleration_deviation(ball, acceleration):
-    """How far the ball's acceleration on its piece is from another, at most."""
+    """How far the ball's acceleration on its segment is from another, at most."""
     if not moves(ball['phase']):
         return length(acceleration)
     most = 0.0
@@ -114,7 +114,7 @@ def time_of_impact_of_balls(a, b, bend, radius, begin, until):
 
 @kernel
 def is_left_to_time_stepping(ball, other, radius, now):
-    """Whether the contact of a piled ball with another one is left to the pile."""
+    """Whether the contact of a time-stepped ball with another one is left to the time steps."""
     if not ball['time_stepping']:
         return False
     if ball['time_stepping'] == STEPPED and other['time_stepping'] == STEPPED:
@@ -126,7 +126,7 @@ def is_left_to_time_stepping(ball, other, radius, now):
 
 @kernel
 def within_contact_reach(ball):
-    """Whether a ball of a pile touches nothing on its piece but what its contacts hold it off."""
+    """Whether a time-stepped ball touches nothing on its segment but what its contacts hold it off."""
     if ball['time_stepping'] != STEPPED:
         return False
     return length(load(ball['position_coefficients'][5])) <= ball['contact_reach']
@@ -144,9 +144,9 @@ def _stand_in_the_way(work, balls, i, radius, now):
 
 @shared
 def interrupt_segments_at(work, balls, i, radius, now):
-    """End pieces that others were laid through ball `i`, which rests now. Writes end, ending, target, ends.
+    """End segments that others were laid through ball `i`, which rests now. Writes end, ending, target, ends.
 
-    They were laid while it still moved, and looked no further than to the end of its piece.
+    They were laid while it still moved, and looked no further than to the end of its segment.
     """
     ball = balls[i]
     place = load(ball['position'])
@@ -172,7 +172,7 @@ def interrupt_segments_at(work, balls, i, radius, now):
 
 @kernel
 def is_over_many_stepped(work, balls, low, high):
-    """Whether many balls of a pile come into the box from `low` to `high`."""
+    """Whether many time-stepped balls come into the box from `low` to `high`."""
     found = 0
     at = next_node(work, 0, low, high)
     while at >= 0 and found < MANY_STEPPED:
@@ -183,7 +183,7 @@ def is_over_many_stepped(work, balls, low, high):
 
 @shared
 def first_ball_impact(work, balls, i, radius, now):
-    """First time at which ball `i`'s piece touches another ball, which, and whether it really does."""
+    """First time at which ball `i`'s segment touches another ball, which, and whether it really does."""
     ball = balls[i]
     until = ball['end']
     if within_contact_reach(ball) and not ball['watches_neighbours']:
@@ -200,7 +200,7 @@ def first_ball_impact(work, balls, i, radius, now):
     at = next_node(work, 0, low, high)
     while at >= 0:
         j = work.nodes[at]['ball']
-        # What is in one pile, or asleep beside it, is held by its contacts.
+        # What is stepped together, or asleep beside it, is held by its contacts.
         other = balls[j]
         is_there = j != i and other['phase'] != HOLED
         if is_there and not is_left_to_time_stepping(ball, other, radius, now):

@@ -42,23 +42,23 @@ def prepare_broad_phase(work, balls, radius):
 
 @generic
 def update_tree(work, balls, i, radius):
-    """Take note of ball `i`'s new piece."""
+    """Take note of ball `i`'s new segment."""
 
 
 @generic
 def first_ball_contact(work, balls, i, radius, now):
-    """First time at which ball `i`'s piece touches another ball, which, and whether it really does."""
+    """First time at which ball `i`'s segment touches another ball, which, and whether it really does."""
     return balls[i]['end'], -1, False
 
 
 @generic
 def interrupt_segments(work, balls, i, radius, now):
-    """Let balls that move end their pieces where they meet ball `i`, which rests from now on."""
+    """Let balls that move end their segments where they meet ball `i`, which rests from now on."""
 
 
 @generic
 def collect_ball_contacts(work, land, balls, i, now):
-    """Add contacts of member `i` with other balls; they become members."""
+    """Add contacts of ball `i` with other balls, which become involved."""
 
 
 @generic
@@ -74,7 +74,7 @@ def step_together(work, land, balls, i, now):
 
 @generic
 def wake(work, balls, radius, now):
-    """Wake the sleepers that lean on members; those wake others as they move. Writes members, phases."""
+    """Wake sleepers that lean on involved balls; those wake others as they move. Writes involved, phase."""
 
 
 @generic

@@ -9,7 +9,7 @@ from .conservative_advancement import MOST_ADVANCES, TOUCH, advancement_bound
 
 @shared
 def first_border_crossing(ground, ball, radius, until):
-    """First time, at most `until`, at which the piece crosses a border in plan, and whether so.
+    """First time, at most `until`, at which the segment crosses a border in plan, and whether so.
 
     It is the ball's foot that crosses.
     """
@@ -45,7 +45,7 @@ def first_border_crossing(ground, ball, radius, until):
 
 @kernel
 def limit_crossing_time(ball, point, inward, until):
-    """First time before `until` at which the piece passes the line through `point`, or `until`."""
+    """First time before `until` at which the segment passes the line through `point`, or `until`."""
     time = 0.0
     bend = max(0.0, -least_acceleration(ball, inward))
     for _ in range(MOST_ADVANCES):
@@ -63,9 +63,9 @@ def limit_crossing_time(ball, point, inward, until):
 
 @kernel
 def border_crossing_time(border, ball, shift, bend, until):
-    """First time before `until` at which the piece, moved by `shift`, meets `border`, or `until`.
+    """First time before `until` at which the segment, moved by `shift`, meets `border`, or `until`.
 
-    A piece that starts on the border has crossed it already.
+    A segment that starts on the border has crossed it already.
     """
     time = 0.0
     start = add(position(ball, 0.0), shift)

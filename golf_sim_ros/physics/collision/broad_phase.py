@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Broad phase: which balls are near each other, by a tree of axis-aligned boxes.
 
-Every ball's piece of path has a box. The boxes are the leaves of a binary tree, laid out depth first, so
+Every ball's segment has a box. The boxes are the leaves of a binary tree, laid out depth first, so
 that looking for all that meet a box needs no stack: a node whose box is missed is skipped with all below
 it::
 
@@ -11,7 +11,7 @@ it::
      / \\
     2   3
 
-A ball that gets a new piece widens or narrows the boxes above its leaf; now and then the tree is built anew.
+A ball that gets a new segment widens or narrows the boxes above its leaf; at times the tree is built anew.
 """
 from ..jit import kernel, shared
 from ..mechanics.vector import add_scaled, store, load
@@ -20,7 +20,7 @@ from . import ball_interactions
 from .conservative_advancement import swept_box
 from .workspace import TREE_AGE, ASLEEP, MultiBallWorkspace
 
-LEAF_MARGIN = 1e-3  # m around the box of a ball of a pile, which seldom goes far
+LEAF_MARGIN = 1e-3  # m around the box of a time-stepped ball, which seldom goes far
 
 
 @ball_interactions.prepare_broad_phase.register(MultiBallWorkspace)
@@ -35,7 +35,7 @@ def _prepare(work, balls, radius):
 
 @kernel
 def segment_box(ball, radius, room):
-    """Box of the ball's piece, with `room` around it."""
+    """Box of the ball's segment, with `room` around it."""
     if moves(ball['phase']) and ball['time_stepping'] != STEPPED:
         return swept_box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
     half = (radius + room, radius + room, radius + room)
@@ -48,7 +48,7 @@ def segment_box(ball, radius, room):
 
 @kernel
 def write_leaf(ball, node, radius):
-    """Write the box of the ball's piece into its leaf; in a pile with room for some steps."""
+    """Write the box of the ball's segment into its leaf; of a time-stepped one with room for some steps."""
     low, high = segment_box(ball, radius, LEAF_MARGIN if ball['time_stepping'] == STEPPED else 0.0)
     store(node['low'], low)
     store(node['high'], high)
@@ -56,7 +56,7 @@ def write_leaf(ball, node, radius):
 
 @kernel
 def leaf_serves(ball, node, radius):
-    """Whether the box in the leaf of a ball of a pile still serves, and is not far too large."""
+    """Whether the box in the leaf of a time-stepped ball still serves, and is not far too large."""
     if ball['time_stepping'] != STEPPED:
         return False
     low, high = segment_box(ball, radius, 0.0)
@@ -159,7 +159,7 @@ def _note(work, balls, i, radius):
 
 @shared
 def update_leaf(work, balls, i, radius):
-    """Tell ball `i`'s new piece. Writes the tree."""
+    """Tell ball `i`'s new segment. Writes the tree."""
     leaf = work.leaves[i]
     if leaf_serves(balls[i], work.nodes[leaf], radius):
         return

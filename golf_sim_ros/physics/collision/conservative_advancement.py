@@ -38,7 +38,7 @@ def advancement_bound(gap, rate, bend):
 
 @kernel
 def swept_box(ball, begin, end, radius):
-    """Box around the ball on its piece from `begin` to `end`."""
+    """Box around the ball on its segment from `begin` to `end`."""
     if begin == 0.0 and end >= 0.5 * ball['span']:
         x = extent_along(ball, 0)
         y = extent_along(ball, 1)

@@ -18,9 +18,9 @@ from ..trajectory.segment import (acceleration_bounds, control_point, greatest_a
                                   plane_gap, plane_gap_coefficients, position, velocity)
 from .conservative_advancement import (MOST_ADVANCES, NEVER, PLAIN_APPROACH, RISING, SHORT_BOX, TANGENTIAL,
                                        TOUCH, swept_box, is_long, advancement_bound)
-HOLDING_GAP = 1e-7  # m: surfaces nearer than this hold a caught ball
-RESTING_GAP = 5e-5  # m: the same in a pile, of balls too
-GENTLE_APPROACH = 0.1  # m/s of approach: slower, a ball stays with the pile that it meets
+HOLDING_GAP = 1e-7  # m: surfaces nearer than this hold a wedged ball
+RESTING_GAP = 5e-5  # m: the same of a time-stepped ball, balls too
+GENTLE_APPROACH = 0.1  # m/s of approach: slower, a ball joins the time-stepped ones that it meets
 SAME_DISTANCE = 1e-9  # m: distances that differ less are those of the same point
 ESCAPE = 1e-9  # m: so far a ball that leaves a hollow may move before it is looked at again
 MANY_STEPS = 100  # after which the bound on the speed all along is taken for too rough
@@ -34,7 +34,7 @@ IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 
 @kernel
 def sees_one_normal(ground, part, ball, normal):
-    """Whether the whole piece sees one and the same `normal` of a convex `part`."""
+    """Whether the whole segment sees one and the same `normal` of a convex `part`."""
     for i in range(6):
         _, seen = surfaces.nearest(ground, part, control_point(ball, i))
         if dot(seen, normal) < 1.0 - 1e-15:
@@ -109,7 +109,7 @@ def penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, ho
 
 @kernel
 def time_of_impact(ground, part, ball, radius, begin, until):
-    """Time from `begin` to `until` up to which the piece is safe from `part`; whether it touches then.
+    """Time from `begin` to `until` up to which the segment is safe from `part`; whether it touches then.
 
     Writes segments_spent.
     """
@@ -152,7 +152,7 @@ def time_of_impact(ground, part, ball, radius, begin, until):
                 continue
         if hollow > 0.0:
             sure = advancement_over_hollows(hollow, distance, gap, rate, bend, fastest)
-            if step > MANY_STEPS:  # a slow ball on a piece at whose end it is fast
+            if step > MANY_STEPS:  # a slow ball on a segment at whose end it is fast
                 sure = max(sure, advancement_bound(gap, -length(velocity(ball, time)), bend))
             time += sure
         else:
@@ -171,7 +171,7 @@ def time_of_impact(ground, part, ball, radius, begin, until):
 
 @shared
 def first_ground_contact(ground, ball, radius, until, on):
-    """First time at which the piece touches any part, which one, and whether it really does.
+    """First time at which the segment touches any part, which one, and whether it really does.
 
     `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
     under it, where surfaces in that plane, and edges met tangentially, are seams and no obstacles;
@@ -255,9 +255,9 @@ def is_ignored(ground, part, ball, radius, foot, until, on):
 
 @kernel
 def holds_wedged(ground, part, ball, radius):
-    """Whether `part` holds the caught ball as its piece begins, and so is no obstacle to it.
+    """Whether `part` holds the wedged ball as its segment begins, and so is no obstacle to it.
 
-    One of a pile that another ball has just hit may be too fast to wait for the pile.
+    A time-stepped ball that another has just hit may be too fast to wait for the next time step.
     """
     distance, normal = surfaces.nearest(ground, part, load(ball['position']))
     if not ball['time_stepping']:
@@ -267,7 +267,7 @@ def holds_wedged(ground, part, ball, radius):
 
 @kernel
 def is_same_edge(ground, part, ball, until):
-    """Whether what is nearest of `part` is what supports the ball, now and `until` the piece's end."""
+    """Whether what is nearest of `part` is what supports the ball, now and `until` the segment's end."""
     if part == ball['support']:
         return True
     for i in range(2):

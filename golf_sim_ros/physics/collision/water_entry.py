@@ -13,7 +13,7 @@ from .conservative_advancement import MOST_ADVANCES, TANGENTIAL, TOUCH, advancem
 
 @shared
 def first_water_entry(waters, ball, until):
-    """First time, at most `until`, at which the piece enters water; number of that water, from 1, or 0."""
+    """First time, at most `until`, at which the segment enters water; number of that water, from 1, or 0."""
     best = until
     who = 0
     lowest, _ = extent_along(ball, 2)
@@ -28,7 +28,7 @@ def first_water_entry(waters, ball, until):
 
 @kernel
 def water_entry_time(waters, i, ball, until):
-    """First time before `until` at which the piece enters water `i`, and whether it does."""
+    """First time before `until` at which the segment enters water `i`, and whether it does."""
     bend = greatest_acceleration(ball)
     falling = max(0.0, -least_acceleration(ball, UP))
     time = 0.0

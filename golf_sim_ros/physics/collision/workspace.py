@@ -21,7 +21,7 @@ CONTACT = np.dtype([
     ('impulse', 'f8', 3), ('approach_speed', 'f8')], align=True)
 
 CONTACTS_A_BALL = 12
-MOST_NEIGHBOURS = 64  # balls that one of a pile may have in reach
+MOST_NEIGHBOURS = 64  # balls that a time-stepped one may have in reach
 INVOLVED, CONTACTS, TREE_AGE, ASLEEP = range(4)
 
 
@@ -66,7 +66,7 @@ def new_workspace(balls, collide):
 
 @kernel
 def next_event_ball(work, until):
-    """Ball whose piece ends first, at `until` at the latest, or -1."""
+    """Ball whose segment ends first, at `until` at the latest, or -1."""
     who = -1
     first = until
     for i in range(len(work.segment_ends)):

@@ -24,7 +24,7 @@ FIRST_STEP = 0.02  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s
 CORRECTIONS = 12  # of a step's length
-CORRECTION_WORK = 1  # pieces of a path elsewhere: so much is each of them, times the effort of the ground
+CORRECTION_WORK = 1  # segments of a path elsewhere: so much is each of them, times the effort of the ground
 LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
 APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
 SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
@@ -199,7 +199,7 @@ def step_share_to_change(land, ball, v, slipping, holding, held):
 
 @kernel
 def gained(land, ball):
-    """Energy over mass [J/kg] that the ball gains on its piece but for that of its weight and the air's.
+    """Energy over mass [J/kg] that the ball gains on its segment but for that of its weight and the air's.
 
     Ground only takes some: there is a gain where its curvature jumps, from edge to wall, and no stage of the
     step tells so.
@@ -218,7 +218,7 @@ def gained(land, ball):
 
 @shared
 def project_to_ground(land, ball):
-    """Put the end of the piece on the ground, moving along it. Writes the curve; returns the press there.
+    """Put the end of the segment on the ground, moving along it. Writes the curve; returns the press there.
 
     Not after the shortest of steps: the rounding of far places, 5e-14 m, over a nanosecond is speed.
     """
@@ -244,14 +244,14 @@ def project_to_ground(land, ball):
 
 @kernel
 def end_velocity(ball):
-    """Velocity at the end of the piece."""
+    """Velocity at the end of the segment."""
     w = ball['position_coefficients']
     return scale(5.0 / ball['span'], sub(load(w[5]), load(w[4])))
 
 
 @kernel
 def slip_at_end(land, ball):
-    """Slip of the ball at the end of its piece."""
+    """Slip of the ball at the end of its segment."""
     place = add_scaled(load(ball['origin']), 1.0, load(ball['position_coefficients'][5]))
     _, normal = surfaces.nearest(land.ground, ball['support'], place)
     return slip(end_velocity(ball), load(ball['spin_coefficients'][3]), normal, land.ball.radius)

@@ -19,15 +19,15 @@ from ..trajectory.equations_of_motion import (LEAST_SPEED, micro_bounce_forces, 
 from ..trajectory.segment import fit_segment, position
 from .contact_state import in_micro_bounces
 
-LONGEST_SEGMENT = 10.0  # s of one piece
-UNHURRIED = 0.1  # s: a shorter piece must be the more exact, as velocity errs by a path's error over its time
+LONGEST_SEGMENT = 10.0  # s of one segment
+UNHURRIED = 0.1  # s: a shorter segment must be the more exact: velocity errs by a path's error over its time
 LEAST_PATH_ERROR = 1e-12  # m: no curve is nearer than this to a closed form,
 RELATIVE_ROUNDING = 1e-15  # or than this share of how far away it is
 
 
 @shared
 def plane_segment(land, ball, now):
-    """Lay the next piece of sliding or rolling on a plane, up to a stop or as far as it is exact."""
+    """Lay the next segment of sliding or rolling on a plane, up to a stop or as far as it is exact."""
     normal = load(ball['normal'])
     material = material_under(land, ball)
     press, downhill = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
@@ -94,14 +94,14 @@ def glide_at(motion, coast, q):
 
 @kernel
 def glide_error(ball, motion, coast, q):
-    """Distance of the piece's curve from the closed form at the parameter `q`."""
+    """Distance of the segment's curve from the closed form at the parameter `q`."""
     time, way, _, _ = glide_at(motion, coast, q)
     return length(sub(sub(position(ball, time), load(ball['origin'])), way))
 
 
 @kernel
 def fit_glide(land, ball, motion, coast, q, turning, unwinding):
-    """Lay the piece of a glide that ends at the parameter `q`. Writes the ball's curve."""
+    """Lay the segment of a glide that ends at the parameter `q`. Writes the ball's curve."""
     normal = load(ball['normal'])
     r = land.ball.radius
     time, way, v1, u1 = glide_at(motion, coast, q)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The engine on one page: detect, evolve, resolve.
 
-Every ball has a piece of path that is safe until its end. Advancing takes the ball whose piece
-ends first, brings it there, resolves what ended it, and lays its next piece; at last every ball is
+Every ball has a segment that is safe until its end. Advancing takes the ball whose segment
+ends first, brings it there, resolves what ended it, and lays its next segment; at last every ball is
 read at the time asked for. Nothing ever steps to a tick, so paths do not depend on ticks.
 """
 import numpy as np
@@ -30,7 +30,7 @@ from .planner import (LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_nex
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'
 IN_FLIGHT, IN_CONTACT, IN_BROAD_PHASE = range(3)
-EVENTS_A_BALL = 3  # that one piece's end can log, but for impacts of balls
+EVENTS_A_BALL = 3  # that one segment's end can log, but for impacts of balls
 
 
 @entry
@@ -76,9 +76,9 @@ def run_events(model, balls, until, work, log):
 
 @kernel
 def resolve(model, balls, i, work, log):
-    """Bring ball `i` to the end of its piece and let happen what ends it.
+    """Bring ball `i` to the end of its segment and let happen what ends it.
 
-    Other balls that this moves become members of the work.
+    Other balls that this moves become involved.
     """
     ball = balls[i]
     now = ball['end']
@@ -146,7 +146,7 @@ def end_if_over(model, ball, number, now, log):
 
 @kernel
 def plan_or_fail(model, ball, number, now, log):
-    """Lay the ball's next piece; if it can't go on, its shot fails. Writes piece."""
+    """Lay the ball's next segment; if it can't go on, its shot fails. Writes segment."""
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):
         why = check_segment(ball, now)
@@ -157,7 +157,7 @@ def plan_or_fail(model, ball, number, now, log):
 
 @kernel
 def note_segment(balls, i, radius, work, since):
-    """Take note of ball `i`'s new piece. Writes work. Returns the cycles at its end; see `count_cycles`."""
+    """Take note of ball `i`'s new segment. Writes work. Returns the cycles at its end; see `count_cycles`."""
     since = count_cycles(work, stage_of(balls[i]), since)
     work.segment_ends[i] = balls[i]['end']
     ball_interactions.update_tree(work, balls, i, radius)
@@ -188,7 +188,7 @@ def cycles_now():
 
 @kernel
 def limit_by_balls(balls, i, radius, now, work):
-    """End ball `i`'s piece where it meets another ball. Writes end, ending, target."""
+    """End ball `i`'s segment where it meets another ball. Writes end, ending, target."""
     ball = balls[i]
     if moves(ball['phase']):
         time, other, hit = ball_interactions.first_ball_contact(work, balls, i, radius, now)
@@ -261,7 +261,7 @@ def play_all(model, ball, strikes, gusts, work, log):
 
 @kernel
 def end_now(ball, now):
-    """End a flying ball's piece at `now`: its surroundings have changed. Writes end, ending."""
+    """End a flying ball's segment at `now`: its surroundings have changed. Writes end, ending."""
     if ball['phase'] == FLIGHT:
         ball['end'] = now
         ball['ending'] = STEP_END

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laying a ball's next piece of path: how it moves on, and up to where that is safe."""
+"""Laying a ball's next segment: how it moves on, and up to where that is safe."""
 from math import inf
 
 from ..collision.ball_gap import within_contact_reach
@@ -25,7 +25,7 @@ from ..trajectory import segment
 from ..trajectory.equations_of_motion import LEAST_SPEED
 
 LONGEST_SHOT = 300.0  # s
-MANY_ZERO_LENGTH = 100  # pieces of no length, one after the other: every second one is let go for a MOMENT,
+MANY_ZERO_LENGTH = 100  # segments of no length, one after the other: every second one is let go for a MOMENT,
 MOMENT = 1e-9  # s, and if that goes on for longer and longer ones, up to what a path may be off
 LEAST_STRAY = 1.5e-7  # m: or this
 LEAST_PRESS = 0.1  # of its weight: what lift leaves of it, at least, while a ball's last bounces go on
@@ -34,7 +34,7 @@ SINKING_STEP = 0.02  # s: so often a sinking ball is asked whether it has come f
 
 @kernel
 def plan_next_segment(model, ball, now):
-    """Lay the ball's next piece, from its state at `now`. Writes piece, begin, end, ending."""
+    """Lay the ball's next segment, from its state at `now`. Writes segment, begin, end, ending."""
     ball['begin'] = now
     if not moves(ball['phase']):
         segment.stay_in_place(ball)
@@ -88,7 +88,7 @@ def plan_next_segment(model, ball, now):
 
 @kernel
 def end_segment(model, ball, now, until):
-    """Let the piece end after `until`, or when time ends it. Writes end, ending, zero_length_segments."""
+    """Let the segment end after `until`, or when time ends it. Writes end, ending, zero_length_segments."""
     ball['end'] = now + max(until, 0.0)
     if ball['time_stepping'] and ball['ending'] == STEP_END and ball['end'] > next_step_time(now) - 1e-9:
         ball['end'] = next_step_time(now)  # the same number for all
@@ -105,7 +105,7 @@ def end_segment(model, ball, now, until):
 
 @shared
 def contact_segment(model, ball, now):
-    """Lay a piece of a ball in contact, and say what it is on; it may turn out to lift off."""
+    """Lay a segment of a ball in contact, and say what it is on; it may turn out to lift off."""
     land = model.land
     is_flat = surfaces.flat_under(land.ground, ball['support'], load(ball['position']))
     if is_flat and not flat_ground_goes_on(land, ball):
@@ -197,7 +197,7 @@ def put_down(model, ball, position, depth):
 
 @kernel
 def read_segment(ball, now):
-    """Write the ball's position, velocity and spin at `now`, on its present piece."""
+    """Write the ball's position, velocity and spin at `now`, on its present segment."""
     if moves(ball['phase']) and now > ball['begin']:
         time = now - ball['begin']
         store(ball['position'], segment.position(ball, time))

@@ -29,5 +29,5 @@ for _module in pkgutil.iter_modules(__path__):
 
 @shared
 def step(model, ball):
-    """Lay the ball's next piece: one step of the model's method. Writes curve, span, step, ending."""
+    """Lay the ball's next segment: one step of the model's method. Writes curve, span, step, ending."""
     runge_kutta.step_by(model.method, model, ball)

@@ -117,7 +117,7 @@ def error_in_metres(ball, weights, h):
 
 @kernel
 def start(model, ball, last):
-    """Write the first stage: where the piece goes on from a whole step, that step's `last` one."""
+    """Write the first stage: where the segment goes on from a whole step, that step's `last` one."""
     goes_on = ball['step'] > 0.0 and ball['last_stage_time'] == ball['begin'] and not ball['time_stepping']
     if ball['phase'] == FLIGHT and goes_on:
         ball['stages'][0] = ball['stages'][last]
@@ -152,7 +152,7 @@ def hop(model, ball):
 
 @generic
 def step_by(method, model, ball):
-    """Lay the next piece: one step from the ball's state. Writes curve, span, step."""
+    """Lay the next segment: one step from the ball's state. Writes curve, span, step."""
     h = ball['step']
     begins = h == 0.0
     brief = False

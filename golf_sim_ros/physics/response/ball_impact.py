@@ -35,8 +35,8 @@ def collide_balls(land, balls, i, now, work, log):
     if gap > contact_set.SIMULTANEOUS_GAP:
         return  # the other one has got another path meanwhile
     stalls = now - balls[i]['begin'] < RAPID_BALL_IMPACT
-    piled = balls[i]['time_stepping'] or balls[j]['time_stepping']
-    if piled:  # the pile passes on what it is given
+    is_stepped = balls[i]['time_stepping'] or balls[j]['time_stepping']
+    if is_stepped:  # time steps pass on what they are given
         contact_set.add_ball_contact(land, balls, i, j, work, now)
     else:
         contact_set.collect_contacts(land, balls, work, now, 0)
@@ -44,18 +44,21 @@ def collide_balls(land, balls, i, now, work, log):
     resume_motion(land, balls, now, work, 0)
     for ball in (balls[i], balls[j]):
         if ball['time_stepping']:
-            if rate <= -GENTLE_APPROACH:  # it hits on, and does not wait for the pile
+            if rate <= -GENTLE_APPROACH:  # it hits on, and does not wait for the time step
                 return_to_events(ball)
             continue
         ball['rapid_impacts'] = ball['rapid_impacts'] + 1 if stalls else 0
-        joins = piled and rate > -GENTLE_APPROACH or ball['rapid_impacts'] > MANY_BALL_IMPACTS
+        joins = is_stepped and rate > -GENTLE_APPROACH or ball['rapid_impacts'] > MANY_BALL_IMPACTS
         if moves(ball['phase']) and joins:
             begin_time_stepping(ball)
 
 
 @shared
 def resolve_contact_set(land, balls, now, work, first, log):
-    """Let the members collide at all contacts. Writes motion; logs impacts, on ground from row `first` on."""
+    """Let the involved balls collide at all contacts. Writes motion.
+
+    Logs impacts, on the ground from row `first` on.
+    """
     for k in range(work.count[INVOLVED]):
         mark_moved_by_ball(balls[work.involved[k]])
     store_motion_before(balls, work)
@@ -84,7 +87,7 @@ def _tell_bumps(work, balls, now, log):
 
 @kernel
 def store_motion_before(balls, work):
-    """Keep the members' motion before the impact, for telling. Writes motion_before."""
+    """Keep the involved balls' motion before the impact, for the log. Writes motion_before."""
     for k in range(work.count[INVOLVED]):
         i = work.involved[k]
         store(work.motion_before[i, 0:3], load(balls[i]['velocity']))
@@ -110,7 +113,7 @@ def log_contact_impact(balls, now, row, work, log):
 
 @kernel
 def resume_motion(land, balls, now, work, first):
-    """Let the members from number `first` on go on as they now move. Writes phases and contacts."""
+    """Let the involved balls from the `first` on go on as they now move. Writes phases and contacts."""
     for k in range(first, work.count[INVOLVED]):
         ball = balls[work.involved[k]]
         if not moves(ball['phase']):

@@ -21,7 +21,7 @@ MOST_MEMBERS = 64
 
 @kernel
 def synchronize(ball, now):
-    """Bring a ball to `now`, where its piece ends before its time. Writes motion, end, ending."""
+    """Bring a ball to `now`, where its segment ends before its time. Writes motion, end, ending."""
     if not moves(ball['phase']):
         return
     ball['end'] = now
@@ -38,23 +38,23 @@ def synchronize(ball, now):
 
 @shared
 def collect_contacts(land, balls, work, now, known):
-    """Find all that the members touch, and what that touches. Writes members, contacts.
+    """Find all that the involved balls touch, and what that touches. Writes involved, contacts.
 
-    Of the first `known` members, the contacts with the ground are there already.
+    Of the first `known` of them, the contacts with the ground are there already.
     """
     k = 0
     while k < work.count[INVOLVED]:
         i = work.involved[k]
         if k >= known:
             collect_ground_contacts(land, balls[i], i, work, 0 if k == 0 else work.count[CONTACTS])
-        if not balls[i]['time_stepping']:  # a pile passes on what it is given
+        if not balls[i]['time_stepping']:  # time steps pass on what they are given
             ball_interactions.collect_ball_contacts(work, land, balls, i, now)
         k += 1
 
 
 @kernel
 def add_to_set(work, i):
-    """Make ball `i`, which is where it is now, a member."""
+    """Let ball `i`, which is where it is now, be involved."""
     work.involved_index[i] = work.count[INVOLVED]
     work.involved[work.count[INVOLVED]] = i
     work.count[INVOLVED] += 1
@@ -62,7 +62,7 @@ def add_to_set(work, i):
 
 @kernel
 def clear_set(work):
-    """Let there be no members. Writes count, places."""
+    """Let no ball be involved. Writes count, involved_index."""
     for k in range(work.count[INVOLVED]):
         work.involved_index[work.involved[k]] = -1
     work.count[INVOLVED] = 0

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the contacts of a pile push: impulses that keep every gap open for one more step, with friction.
+"""Contact solver of time stepping: impulses that keep every gap open for one more step, with friction.
 
-Moreau's time stepping. A pile moves in straight lines from one instant to the next, so a gap to what is
+Moreau's time stepping. Balls move in straight lines from one instant to the next, so a gap to what is
 convex shrinks by no more than its rate says: where no contact closes faster than gap over step, nothing
 overlaps at the next instant. Projected Gauss-Seidel finds the impulses, beginning with those of the step
 before. Velocities here are those half-way through a step (leapfrog), and impulses are per mass.
@@ -29,7 +29,7 @@ WALL = 1e-3  # least part of gravity that must press for a ball to come to rest 
 
 @kernel
 def contact_reach(work):
-    """How far [m] from a member something may be that it can touch before the next instant."""
+    """How far [m] from an involved ball something may be that it can touch before the next instant."""
     fastest = 0.0
     for k in range(work.count[INVOLVED]):
         fastest = max(fastest, length(load(work.solved_motion[work.involved[k], 0:3])))
@@ -38,7 +38,7 @@ def contact_reach(work):
 
 @kernel
 def add_ground_contacts(land, ball, i, work, reach):
-    """Contacts of member `i` with the ground within `reach`. Writes contacts."""
+    """Contacts of ball `i` with the ground within `reach`. Writes contacts."""
     begin = work.count[CONTACTS]
     place = load(ball['position'])
     low, high = surfaces.around(place, land.ball.radius + reach)
@@ -68,7 +68,7 @@ def init_contact(row, gap, friction):
 
 @kernel
 def neighbours_within(balls, work, i, reach, radius, now):
-    """Balls within `reach` of member number `i`, by number; whether others are on their way.
+    """Balls within `reach` of ball `i`, by number; whether others are on their way.
 
     Writes near, in rising order: what is solved first must not depend on the tree. Returns how many.
     """
@@ -96,7 +96,7 @@ def neighbours_within(balls, work, i, reach, radius, now):
 
 @kernel
 def add_resting_contact(land, balls, work, i, j, now):
-    """Add the contact of member `i` with ball `j`, a member or asleep."""
+    """Add the contact of ball `i` with ball `j`, which is involved or asleep."""
     apart = sub(load(balls[i]['position']), position_at(balls[j], now))
     row = add_contact(work, i, j if work.involved_index[j] >= 0 else -1, -2 - j, unit(apart, UP))
     if row >= 0:
@@ -248,7 +248,7 @@ def sweep_impulses(land, work, backward):
 
 @shared
 def solve_contacts(land, balls, work):
-    """Solve all contacts of the members. Writes impulses, and the members' motion in solved_motion."""
+    """Solve all contacts. Writes impulses and solved_motion."""
     warm_start(land, balls, work)
     for sweep in range(MOST_SWEEPS):
         if sweep_impulses(land, work, sweep % 2 == 1) <= CONVERGED:
@@ -258,7 +258,7 @@ def solve_contacts(land, balls, work):
 
 @kernel
 def write_back(ball, work, i):
-    """Give member `i` its solved motion, and nothing to stand on yet. Writes motion, held_by and contact."""
+    """Give ball `i` its solved motion, and nothing to stand on yet. Writes motion, held_by and contact."""
     store(ball['velocity'], load(work.solved_motion[i, 0:3]))
     store(ball['spin'], load(work.solved_motion[i, 3:6]))
     ball['rolling_loss'] = 0.0

@@ -32,7 +32,7 @@ LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 def resolve_ground_impact(land, balls, i, now, work, log):
     """Let ball `i` collide with its target. Writes motion, phase and contact; logs the impact.
 
-    Other balls that touch it are hit too and become members of the work.
+    Other balls that touch it are hit too and become involved.
     """
     ball = balls[i]
     place = load(ball['position'])
@@ -67,7 +67,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
     rebound = max(dot(load(ball['velocity']), normal), 0.0)
     if approach > LEAST_LOGGED_APPROACH:
         log_ground_impact(land, ball, i, now, normal, number, before, log)
-    # A single longer piece among many short ones is no way out: on two lips they come in waves.
+    # A single longer segment among many short ones is no way out: on two lips they come in waves.
     if now - ball['begin'] < RAPID:
         ball['rapid_impacts'] += 1
     else:

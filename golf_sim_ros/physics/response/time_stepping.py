@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Balls that lean on balls for good: piles, racks, two balls in a bowl.
 
-There impacts follow each other ever faster. Such balls are piled: they move in small steps of time, all at
+There impacts follow each other ever faster. Such balls are time-stepped: they move in small steps, all at
 the same instants, at each of which their contacts are solved together (contact_solver.py). A ball that
 nothing holds any more flies on, one that only the ground holds rolls on. What has been calm for a while falls
 asleep, and awakes when it is touched or when what it leans on sets off.
 
-The velocity of a ball of a pile is that half-way through its step, so that a step in free fall is exact; one
-that has just joined has its own.
+The velocity of a time-stepped ball is that half-way through its step, so that a step in free fall is exact;
+one that has just joined has its own.
 """
 from math import floor
 
@@ -31,7 +31,7 @@ from .contact_solver import (TIME_STEP, add_resting_contact, gap_rate, contact_r
 from .wedged_ball import MANY_RAPID_IMPACTS, is_wedged
 
 WAKING_APPROACH = 1e-3  # m/s of approach wake a sleeper
-DAMPED_SPEED = 0.02  # m/s: what moves slower in a pile is damped, for the sweeps never quite end
+DAMPED_SPEED = 0.02  # m/s: what moves slower is damped, for the sweeps never quite end
 DAMPING = 0.9
 STILL_SPEED = 4e-3  # m/s
 STEPS_TO_SLEEP = 50
@@ -52,7 +52,7 @@ def is_step_time(now):
 
 @kernel
 def begin_time_stepping(ball):
-    """Make a ball one of a pile."""
+    """Let a ball move in time steps, together with others."""
     mark_moved_by_ball(ball)
     ball['sleeps_on_ball'] = 0
     ball['time_stepping'] = JOINED
@@ -65,14 +65,14 @@ def begin_time_stepping(ball):
 
 @kernel
 def return_to_events(ball):
-    """Let a ball be no longer one of a pile."""
+    """Let a ball move from event to event again."""
     ball['time_stepping'] = 0
     ball['rapid_impacts'] = 0
 
 
 @kernel
 def straight_segment(ball, span):
-    """Lay a straight piece of `span` seconds. Writes curve and ending."""
+    """Lay a straight segment of `span` seconds. Writes curve and ending."""
     v = load(ball['velocity'])
     ball['span'] = span
     ball['ending'] = STEP_END
@@ -131,7 +131,7 @@ def _rouse(work, balls, radius, now):
 
 @shared
 def solve_time_step(land, balls, now, work):
-    """Solve all contacts of the piled balls that are due: the members. Writes motion and phases."""
+    """Solve all contacts of the time-stepped balls that are due. Writes motion and phases."""
     for i in range(len(balls)):
         if balls[i]['time_stepping'] and work.segment_ends[i] == now and work.involved_index[i] < 0:
             add_to_set(work, i)
@@ -162,7 +162,7 @@ def apply_gravity(land, balls, work, i):
 
 @shared
 def collect_resting_contacts(land, balls, work, now):
-    """Contacts of the members with all that they may reach. Writes contacts, members and their reach."""
+    """Contacts of the involved balls with all in reach. Writes contacts, involved, contact_reach."""
     reach = contact_reach(work)
     k = 0
     while k < work.count[INVOLVED]:
@@ -189,7 +189,7 @@ def collect_resting_contacts(land, balls, work, now):
 
 @kernel
 def choose_after_step(land, ball, now, work):
-    """Let a member rest, roll away, fly away, or stay in the pile. Writes motion and phase."""
+    """Let a ball rest, roll away, fly away, or stay time-stepped. Writes motion and phase."""
     speed = length(load(ball['velocity']))
     left = max(speed - ball['rolling_loss'], 0.0)
     if left < DAMPED_SPEED and ball['held_by'] > 1:

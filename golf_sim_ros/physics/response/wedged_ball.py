@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A ball that several surfaces hold at once: in a groove, a corner, a slot, or blown against a wall.
 
-There impacts follow each other ever faster. After some it is caught: it moves in small steps of
+There impacts follow each other ever faster. After some it is wedged: it moves in small steps of
 time, and at each step's end whatever it touches takes away what drives it in, with friction
 (Moreau's time stepping, see contact_solver.py), and pushes it out.
 """
@@ -19,7 +19,7 @@ from ..trajectory.segment import greatest_acceleration
 from .contact_solver import (write_back, add_ground_contacts, count_support, sweep_impulses, sweep_positions,
                              limit_speed)
 
-RAPID = 1e-6  # s between impacts: of a ball that is being caught they are less
+RAPID = 1e-6  # s between impacts: of a ball that is being wedged they are less
 MANY_RAPID_IMPACTS = 20
 WEDGED_STEP = 2e-4  # s at most
 STEP_PENETRATION = 2e-7  # m: by so much may acceleration drive a ball in, in a step
@@ -35,7 +35,7 @@ def is_wedged(ball):
 
 @kernel
 def wedged_step_length(ball):
-    """Length [s] of the next small step of a ball on a piece of flight."""
+    """Length [s] of the next small step of a ball on a segment of flight."""
     return min(WEDGED_STEP, sqrt(2.0 * STEP_PENETRATION / max(greatest_acceleration(ball), 1e-3)))
 
 
@@ -43,7 +43,7 @@ def wedged_step_length(ball):
 def step_wedged(land, balls, i, now, work):
     """Let what ball `i` touches hold it. Writes position, motion, phase and contact.
 
-    A ball left with one surface to lie on, or none, is caught no more.
+    A ball left with one surface to lie on, or none, is wedged no more.
     """
     ball = balls[i]
     store(work.solved_motion[i, 0:3], load(ball['velocity']))

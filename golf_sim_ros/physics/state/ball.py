@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is known of a ball: where it is, and the piece of path that it is on.
+"""What is known of a ball: where it is, and the segment that it is on.
 
-A ball's path is a chain of pieces. A piece ends at an event or at an integrator's step, never at a
+A ball's path is a chain of segments. A segment ends at an event or at an integrator's step, never at a
 tick; ticks read it. Times are seconds on the world's clock.
 """
 from enum import IntEnum
 from typing import NamedTuple
+
 import numpy as np
 
 from ..jit import kernel
@@ -35,14 +36,14 @@ class Shot(NamedTuple):
     spin: tuple = (0.0, 0.0, 0.0)
 
 
-# What ends a piece of path. LAUNCH: the ball was put or struck, and its own state counts. MEETING: of balls.
-# SPLASH: in water, whose number is the target.
+# What ends a segment. LAUNCH: the ball was put or struck, and its own state counts. The target is the part of
+# the ground, the other ball or the water that it meets.
 (STEP_END, GROUND_IMPACT, BORDER_CROSSING, SLIP_STOPS, BALL_STOPS, TIME_LIMIT, LAUNCH, BALL_IMPACT,
  WATER_ENTRY) = range(9)
 
 NO_PART = -1
-JOINED, STEPPED = 1, 2  # of a ball in a pile: only just, or for a step
-MOST_STORED = 12  # contacts of a ball in a pile whose impulses are remembered
+JOINED, STEPPED = 1, 2  # of a time-stepped ball: only just, or for a step
+MOST_STORED = 12  # contacts of a time-stepped ball whose impulses are remembered
 
 BALL = np.dtype([
     # as of the last tick
@@ -52,17 +53,17 @@ BALL = np.dtype([
     # acceleration along the ground that the air gives
     ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('micro_bounce_end', 'f8'),
     ('micro_bounce_load', 'f8'), ('micro_bounce_air', 'f8', 3),
-    # in a pile: whether it is, for how many steps it has been calm, what holds it (1 for the ground, 2
-    # for a ball, summed), rolling resistance [m/s]; how far around all contacts are known, and whether other
-    # balls are on their way there; asleep: whether it leans on a ball
+    # time stepping (JOINED, STEPPED or 0), for how many steps it has been still, what holds it (1 for the
+    # ground, 2 for a ball, summed), what rolling resistance takes [m/s]; how far around all contacts are known,
+    # and whether other balls are on their way there; asleep: whether it leans on a ball
     ('time_stepping', 'i8'), ('still_steps', 'i8'), ('held_by', 'i8'), ('rolling_loss', 'f8'),
     ('contact_reach', 'f8'), ('watches_neighbours', 'i8'), ('sleeps_on_ball', 'i8'),
-    # its contacts in the last step: how many, with what, their push and rub over mass [m/s]
+    # its contacts in the last step: how many, with what, their normal and tangential impulse over mass [m/s]
     ('stored_count', 'i8'), ('stored_partners', 'i8', MOST_STORED),
     ('stored_impulses', 'f8', (MOST_STORED, 4)),
     # number of the water that it is in, from 1; 0: none
     ('water', 'i8'),
-    # the piece of path: from `begin` to `end`; Bernstein coefficients of the way from `origin`
+    # the segment: from `begin` to `end`; Bernstein coefficients of the way from `origin`
     # and of the spin; what ends it and on which part of the ground, or at which other ball
     ('begin', 'f8'), ('end', 'f8'), ('span', 'f8'), ('origin', 'f8', 3),
     ('position_coefficients', 'f8', (6, 3)), ('spin_coefficients', 'f8', (4, 3)),
@@ -76,7 +77,7 @@ BALL = np.dtype([
     ('landed', 'i8'), ('landing', 'f8'), ('landed_at', 'f8', 3), ('landing_velocity', 'f8', 3),
     ('bounces', 'i8'), ('rapid_impacts', 'i8'), ('zero_length_segments', 'i8'), ('ended', 'f8'),
     ('over_time', 'i8'),
-    # why its shot failed; until when its pieces are counted, and how many there were too many of late
+    # why its shot failed; until when its segments are counted, and how many there were too many of late
     ('failed', 'i8'), ('counted_until', 'f8'), ('segments_spent', 'f8'),
     # how often it was struck since it was teed
     ('strokes', 'i8'),

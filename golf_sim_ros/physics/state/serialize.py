@@ -8,16 +8,16 @@ from .ball import BALL, FLIGHT, ROLL, SLIDE
 
 TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
 
-OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its piece
+OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its segment
 # What counts of all else if the ball does not move: the rest is written when it sets off.
 STANDING = ('phase', 'support', 'material', 'normal', 'micro_bounce_end', 'micro_bounce_load',
             'micro_bounce_air', 'sleeps_on_ball', 'strokes')
-PRESSED = ('stored_count', 'stored_partners', 'stored_impulses')  # the same of a ball that is not in a pile
+PRESSED = ('stored_count', 'stored_partners', 'stored_impulses')  # not of a ball that is not time-stepped
 
 
 def plain(ball):
     """All that counts of a `BALL` record, as numbers and lists by name."""
-    return {**plain_of_tick(ball), **plain_of_piece(ball)}
+    return {**plain_of_tick(ball), **plain_of_segment(ball)}
 
 
 def plain_of_tick(ball):
@@ -25,8 +25,8 @@ def plain_of_tick(ball):
     return {name: ball[name].tolist() for name in OF_TICK}
 
 
-def plain_of_piece(ball):
-    """The part of `plain` that lasts as long as the ball's piece of path."""
+def plain_of_segment(ball):
+    """The part of `plain` that lasts as long as the ball's segment."""
     names = BALL.names[len(OF_TICK):] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
     if not ball['time_stepping']:
         names = [name for name in names if name not in PRESSED]

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A piece of path as a Bezier curve, so that it can be read at any instant.
+"""A segment as a Bezier curve, so that it can be read at any instant.
 
 Position is of degree five: it meets position, velocity and acceleration at both ends (quintic
 Hermite), so it serves every integrator whose step ends with the rates there. Spin is of degree
 three. Coefficients are Bernstein's, relative to the start: the curve lies within their hull, which
-gives bounds for nothing, and short pieces keep full precision.
+gives bounds for nothing, and short segments keep full precision.
 
 ::
 
@@ -20,7 +20,7 @@ from ..mechanics.vector import add, add_scaled, dot, store, sub, load
 
 @kernel
 def fit_segment(ball, way, velocity, rate, spin_rate):
-    """Write the piece's curve.
+    """Write the segment's curve.
 
     `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and
     `spin_rate` are pairs (at start, at end); the start's spin is the ball's own and the end's
@@ -44,7 +44,7 @@ def fit_segment(ball, way, velocity, rate, spin_rate):
 
 @kernel
 def position(ball, time):
-    """Position `time` after the start of the piece."""
+    """Position `time` after the start of the segment."""
     t = time / ball['span']
     s = 1.0 - t
     w = ball['position_coefficients']
@@ -61,7 +61,7 @@ def position(ball, time):
 
 @kernel
 def velocity(ball, time):
-    """Velocity `time` after the start of the piece."""
+    """Velocity `time` after the start of the segment."""
     t = time / ball['span']
     s = 1.0 - t
     w = ball['position_coefficients']
@@ -81,7 +81,7 @@ def velocity(ball, time):
 
 @kernel
 def spin(ball, time):
-    """Spin `time` after the start of the piece."""
+    """Spin `time` after the start of the segment."""
     t = time / ball['span']
     s = 1.0 - t
     w = ball['spin_coefficients']
@@ -96,7 +96,7 @@ def spin(ball, time):
 
 @kernel
 def acceleration_coefficient(ball, i):
-    """Acceleration's Bernstein coefficient `i` (0 to 3) of the piece."""
+    """Acceleration's Bernstein coefficient `i` (0 to 3) of the segment."""
     w = ball['position_coefficients']
     k = 20.0 / (ball['span'] * ball['span'])
     second = sub(sub(load(w[i + 2]), load(w[i + 1])), sub(load(w[i + 1]), load(w[i])))
@@ -105,7 +105,7 @@ def acceleration_coefficient(ball, i):
 
 @kernel
 def greatest_acceleration(ball):
-    """Bound on the acceleration's size over the piece."""
+    """Bound on the acceleration's size over the segment."""
     most = 0.0
     for i in range(4):
         a = acceleration_coefficient(ball, i)
@@ -115,7 +115,7 @@ def greatest_acceleration(ball):
 
 @kernel
 def greatest_speed(ball):
-    """Bound on the speed over the piece."""
+    """Bound on the speed over the segment."""
     w = ball['position_coefficients']
     most = 0.0
     for i in range(5):
@@ -126,7 +126,7 @@ def greatest_speed(ball):
 
 @kernel
 def least_acceleration(ball, direction):
-    """Bound from below on the acceleration along `direction` over the piece."""
+    """Bound from below on the acceleration along `direction` over the segment."""
     least = dot(acceleration_coefficient(ball, 0), direction)
     for i in range(1, 4):
         least = min(least, dot(acceleration_coefficient(ball, i), direction))
@@ -135,7 +135,7 @@ def least_acceleration(ball, direction):
 
 @kernel
 def extent_along(ball, axis):
-    """Least and greatest coordinate on `axis` that the piece can reach."""
+    """Least and greatest coordinate on `axis` that the segment can reach."""
     low = 0.0
     high = 0.0
     w = ball['position_coefficients']
@@ -147,7 +147,7 @@ def extent_along(ball, axis):
 
 @kernel
 def plane_gap_coefficients(ball, normal, first):
-    """Bernstein coefficients of the piece's height over a plane of `normal`, `first` at its start."""
+    """Bernstein coefficients of the segment's height over a plane of `normal`, `first` at its start."""
     w = ball['position_coefficients']
     return (first, first + dot(load(w[1]), normal), first + dot(load(w[2]), normal),
             first + dot(load(w[3]), normal), first + dot(load(w[4]), normal),
@@ -156,7 +156,7 @@ def plane_gap_coefficients(ball, normal, first):
 
 @kernel
 def plane_gap(g, span, time):
-    """Height `time` after the start of a piece of `span` and its rate, by its coefficients `g`."""
+    """Height `time` after the start of a segment of `span` and its rate, by its coefficients `g`."""
     t = time / span
     s = 1.0 - t
     ss = s * s
@@ -170,7 +170,7 @@ def plane_gap(g, span, time):
 
 @kernel
 def acceleration_bounds(g, span):
-    """How fast the rate of a height with the coefficients `g` falls, and rises, over a piece at most."""
+    """How fast the rate of a height with the coefficients `g` falls, and rises, over a segment at most."""
     a = g[2] - 2.0 * g[1] + g[0]
     b = g[3] - 2.0 * g[2] + g[1]
     c = g[4] - 2.0 * g[3] + g[2]
@@ -181,7 +181,7 @@ def acceleration_bounds(g, span):
 
 @kernel
 def stay_in_place(ball):
-    """Make the piece stand still with the ball's spin, for `span`."""
+    """Make the segment stand still with the ball's spin, for `span`."""
     ball['span'] = 1.0
     store(ball['origin'], load(ball['position']))
     ball['position_coefficients'][:, :] = 0.0
@@ -191,5 +191,5 @@ def stay_in_place(ball):
 
 @kernel
 def control_point(ball, i):
-    """Control point `i` of the piece, in the course frame."""
+    """Control point `i` of the segment, in the course frame."""
     return add(load(ball['origin']), load(ball['position_coefficients'][i]))
