@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The launch file, where ROS's own launch is installed; test/ros/test_launched.py starts it."""
+"""The launch file, where ROS's own launch is installed; test/nodes/test_launched.py starts it."""
 
 import ast
 import os

@@ -15,7 +15,7 @@ import time
 import numpy as np
 
 ROOT = Path(__file__).parents[1]
-sys.path[:0] = [str(ROOT / 'test' / 'ros')]
+sys.path[:0] = [str(ROOT / 'test' / 'nodes')]
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped  # noqa: E402
 import pytest  # noqa: E402
 from processes import Golfer, parameters, Process, READY, wait_until  # noqa: E402

@@ -151,6 +151,7 @@ class Player(Node):
             If there is no sim, or it rejects the shot, aborts it, or goes away.
         """
         self.find_sim()
+        self.said = ''  # that it was not there yet is settled
         self.results.clear()
         beat = self._listen_for_good(velocity, spin) if self.reach.is_offered() else None
         self.struck_at, self.first_position = time.monotonic(), None

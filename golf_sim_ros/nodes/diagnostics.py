@@ -13,7 +13,7 @@ from .log_lines import with_reasons
 SLOW = 0.95  # simulated seconds a wall second; below this a viewer notices
 
 
-class Diagnosis:
+class Diagnostics:
     """Figures gathered while the simulation runs."""
 
     def __init__(self):

@@ -9,8 +9,8 @@ from ..physics.engine.orientation import UPRIGHT
 from ..recording.journal import Journal
 from ..recording.json_format import state_text
 from . import conversions, log_lines
-from .diagnostics import Diagnosis, SLOW
-from .real_time import Pace
+from .diagnostics import Diagnostics, SLOW
+from .real_time import RealTime
 
 CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
 REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
@@ -25,9 +25,9 @@ class Game:
     Parameters
     ----------
     world : World
-    broadcast : Broadcast
+    publishers : Publishers
         Where it is told.
-    refusals : Refusals
+    rejected_inputs : RejectedInputs
         Where it is told what was not done.
     log : rclpy.impl.rcutils_logger.RcutilsLogger
         Where shots are told to people.
@@ -37,15 +37,15 @@ class Game:
         Told what the play costs, and asked between shots which engine goes on.
     """
 
-    def __init__(self, world, broadcast, refusals, log, given, takeover):
-        self.world, self.broadcast, self.refusals, self.log = world, broadcast, refusals, log
+    def __init__(self, world, publishers, rejected_inputs, log, given, takeover):
+        self.world, self.publishers, self.rejected_inputs, self.log = world, publishers, rejected_inputs, log
         self.takeover = takeover
-        self.pace = Pace(1.0 / given.rate, max(1, round(given.rate / given.publish_rate)),
-                         given.real_time_factor)
+        self.real_time = RealTime(1.0 / given.rate, max(1, round(given.rate / given.publish_rate)),
+                                  given.real_time_factor)
         self.busy = min(BUSY / given.publish_rate, LONGEST_BUSY)
         self.keeps_time = given.publish_clock
-        self.journal, self.ticks = Journal(broadcast.tell_entry), 0
-        self.diagnosis = Diagnosis()
+        self.journal, self.ticks = Journal(publishers.publish_entry), 0
+        self.diagnostics = Diagnostics()
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
@@ -63,7 +63,7 @@ class Game:
     @property
     def asleep(self):
         """Whether nothing changes until something arrives."""
-        stands_still = self.pace.hurries or not self.keeps_time
+        stands_still = self.real_time.hurries or not self.keeps_time
         return self.paused or stands_still and not self.world.moving
 
     def step(self):
@@ -73,8 +73,8 @@ class Game:
             self.takeover.between_shots()
         if not self.paused:
             self.apply()
-        with self.diagnosis.publishing():
-            self.tell()
+        with self.diagnostics.publishing():
+            self.notify()
 
     def advance(self):
         """Advance by as many whole ticks as are due; where they are many, tell in between."""
@@ -82,11 +82,11 @@ class Game:
         self.began, self.spent = self.began + passed, self.spent + spent
         if self.paused:
             self.stood_still = True
-            self.pace.skip()
+            self.real_time.skip()
             return
         moving = self.world.moving
-        if self.pace.hurries and not moving:
-            self.pace.skip()
+        if self.real_time.hurries and not moving:
+            self.real_time.skip()
             return
         if moving:
             self.takeover.note(spent, passed)
@@ -95,36 +95,36 @@ class Game:
     def advance_by_portions(self, moving):
         """Advance by the ticks that are due."""
         done = 0
-        for ticks in self.pace.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
+        for ticks in self.real_time.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
             if done and self.world.moving:
-                with self.diagnosis.publishing():
-                    self.tell_balls()
+                with self.diagnostics.publishing():
+                    self.notify_balls()
             for _ in range(ticks):
                 self.tick()
-                if self.pace.hurries and not self.world.moving:
+                if self.real_time.hurries and not self.world.moving:
                     return
             done += ticks
-        if moving and not self.pace.hurries:
-            self.diagnosis.count(done, self.pace.usual * self.pace.factor)
+        if moving and not self.real_time.hurries:
+            self.diagnostics.count(done, self.real_time.usual * self.real_time.factor)
 
     def tick(self):
         """Advance by one tick and tell what happened in it."""
         began = perf_counter()
-        events = self.world.advance(self.pace.tick)
+        events = self.world.advance(self.real_time.tick)
         self.ticks += 1
-        self.diagnosis.note_tick(perf_counter() - began)
-        self.world.turn(self.turned, self.pace.tick)
+        self.diagnostics.note_tick(perf_counter() - began)
+        self.world.turn(self.turned, self.real_time.tick)
         if events:
-            with self.diagnosis.publishing():
-                self.tell_events(events)
+            with self.diagnostics.publishing():
+                self.notify_events(events)
 
-    def tell_events(self, events):
+    def notify_events(self, events):
         """Tell collisions and ends of shots."""
         for event in events:
             if isinstance(event, Result):
                 self.finish(event)
             else:
-                self.broadcast.tell_collision(event)
+                self.publishers.publish_collision(event)
 
     def apply(self):
         """Do what arrived, in order; the wind first, so that a shot starts in it."""
@@ -136,7 +136,7 @@ class Game:
         inputs, self.inputs = self.inputs, []
         for act in inputs:
             act()
-            self.tell_events(self.world.happened())
+            self.notify_events(self.world.happened())
 
     def strike(self, name, velocity, spin):
         """Strike a ball; a bad shot has its result at once."""
@@ -145,13 +145,13 @@ class Game:
         try:
             self.world.strike(name, velocity, spin)
         except Rejected as error:
-            self.broadcast.results.publish(
+            self.publishers.results.publish(
                 conversions.rejection_json(self.shots, name, velocity, spin, str(error)))
-            self.refusals.warn('shot', f'{name}: {error}')
+            self.rejected_inputs.warn('shot', f'{name}: {error}')
             return
         self.numbers[self.world.shots] = self.shots
         self.journal.strike(self.ticks, self.shots, name, (velocity, spin), before)
-        self.broadcast.scene.trails[name].clear()
+        self.publishers.scene.trails[name].clear()
 
     def place(self, name, point):
         """Put a resting ball on the ground at the x and y of `point`."""
@@ -160,20 +160,20 @@ class Game:
                 raise ValueError('it is in motion')
             self.world.place(name, point[:2])
         except ValueError as error:
-            self.refusals.warn('place', f'{name}: {error}')
+            self.rejected_inputs.warn('place', f'{name}: {error}')
             return
         self.journal.note('place', self.ticks, ball=name, position=point[:2])
-        self.broadcast.scene.trails[name].clear()
+        self.publishers.scene.trails[name].clear()
         self.all_due = True
 
     def reset(self):
         """All balls back to the start; shots under way end as aborted."""
         aborted = self.world.reset()
         self.journal.note('reset', self.ticks)
-        self.tell_events([*self.world.happened(), *aborted])
+        self.notify_events([*self.world.happened(), *aborted])
         self.turned[:] = UPRIGHT
         for name in self.world.names:
-            self.broadcast.scene.trails[name].clear()
+            self.publishers.scene.trails[name].clear()
         self.all_due = True
 
     def finish(self, result):
@@ -183,43 +183,43 @@ class Game:
         self.journal.rest(self.ticks, shot, result, ball)
         if result.status in ('out_of_bounds', 'water', 'failed'):
             self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
-        self.broadcast.results.publish(conversions.result_json(result, shot))
+        self.publishers.results.publish(conversions.result_json(result, shot))
         if result.status == 'failed':
             self.log.error(f'shot {shot} failed, and {result.ball} is back where it was struck: '
                            f'{result.reason}')
         else:
             self.log.info(log_lines.line(result))
 
-    def be_exact(self, accuracy):
+    def set_accuracy(self, accuracy):
         """Simulate with another accuracy from now on."""
         self.world.accuracy = accuracy
         if self.world.moving:
             self.journal.note('accuracy', self.ticks, accuracy=accuracy)
 
-    def pass_at(self, factor):
+    def set_real_time_factor(self, factor):
         """Let time pass `factor` times as fast as the clock from now on."""
         self.advance()
-        self.pace.factor = factor
+        self.real_time.factor = factor
 
-    def tell(self):
+    def notify(self):
         """Balls that move or have just stopped; everything that somebody waits for."""
         scene_due = self.scene_due()
-        self.tell_balls(self.all_due)
+        self.notify_balls(self.all_due)
         if scene_due:
-            self.broadcast.tell_scene(self.blowing)
+            self.publishers.publish_scene(self.blowing)
         if self.course_due:
-            self.broadcast.tell_course()
+            self.publishers.publish_course()
         self.all_due = self.course_due = False
 
-    def tell_balls(self, all_of_them=False):
+    def notify_balls(self, all_of_them=False):
         """The time, and balls that move or have just stopped."""
         moving = set(self.world.in_motion)
-        self.broadcast.tell_time()
+        self.publishers.publish_time()
         balls = {name: self.world[name]
                  for name in (self.world.names if all_of_them else moving | self.awake)}
-        self.broadcast.tell_balls(balls, self.orientations)
+        self.publishers.publish_balls(balls, self.orientations)
         for name in moving:
-            self.broadcast.scene.trails[name].add(balls[name].position)
+            self.publishers.scene.trails[name].add(balls[name].position)
         self.awake = moving
 
     def scene_due(self):
@@ -230,16 +230,17 @@ class Game:
 
     def diagnose(self):
         """Tell how well simulated time keeps up with the clock."""
-        self.diagnosis.mark(self.world)
-        slow = self.diagnosis.factor < SLOW * self.pace.factor and not self.stood_still
+        self.diagnostics.mark(self.world)
+        slow = self.diagnostics.factor < SLOW * self.real_time.factor and not self.stood_still
         self.stood_still = self.paused
         failures = self.world.failures
         if failures > self.failures:
             self.log.error(f'{failures} balls could not go on so far; the last: {self.world.last_failure}')
         self.failures = failures
         if slow:
-            self.log.warning(f'slower than the clock: {self.diagnosis.factor:.3g} simulated seconds a second '
-                             f'instead of {self.pace.factor:g}; no tick is left out, the play is the same',
-                             throttle_duration_sec=1.0)
-        self.broadcast.tell_diagnosis(slow, {
-            **self.diagnosis.values(self.world, self.pace.lost), **self.takeover.values()})
+            self.log.warning(
+                f'slower than the clock: {self.diagnostics.factor:.3g} simulated seconds a second '
+                f'instead of {self.real_time.factor:g}; no tick is left out, the play is the same',
+                throttle_duration_sec=1.0)
+        self.publishers.publish_diagnosis(slow, {
+            **self.diagnostics.values(self.world, self.real_time.lost), **self.takeover.values()})

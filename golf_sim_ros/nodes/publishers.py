@@ -25,7 +25,7 @@ BEAT = QoSProfile(depth=1)  # only the last one counts; reliable, so that it mat
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-class Broadcast:
+class Publishers:
     """Publishers, and what is needed to write their messages.
 
     Parameters
@@ -51,9 +51,9 @@ class Broadcast:
         make = node.create_publisher
         self.collisions = make(String, 'collisions', EVENTS)
         self.results = make(String, 'shot/result', EVENTS)
-        self.journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.tell_config))
+        self.journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.publish_config))
         self.course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
-        watch(node, [self.journal], self.tell_config)
+        watch(node, [self.journal], self.publish_config)
         watch(node, [self.course], on_viewer)
         self.play = make(MarkerArray, 'play/markers', STREAM)
         self.diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
@@ -72,14 +72,14 @@ class Broadcast:
         """Header of a message about simulated `time`."""
         return conversions.header(self.frame, self.began, time)
 
-    def tell_time(self):
+    def publish_time(self):
         """Simulated time on /clock, where that is wanted, and not too often."""
         now = monotonic()
         if self.clock and now >= self.next_clock:
             self.next_clock = now + CLOCK_PERIOD
             self.clock.publish(Clock(clock=self.head(self.world.time).stamp))
 
-    def tell_balls(self, balls, orientations):
+    def publish_balls(self, balls, orientations):
         """Poses and twists of `balls`, by name."""
         head = self.head(self.world.time)
         for name, ball in balls.items():
@@ -88,7 +88,7 @@ class Broadcast:
             if heard(self.twists[name]):
                 self.twists[name].publish(conversions.twist(head, ball))
 
-    def tell_collision(self, collision):
+    def publish_collision(self, collision):
         """A contact, as JSON and as a point."""
         self.collisions.publish(conversions.collision_json(collision))
         both = [collision.ball] + [collision.with_] * (collision.kind == 'ball')
@@ -97,32 +97,32 @@ class Broadcast:
                 self.contacts[name].publish(conversions.contact(self.head(collision.time), collision))
         self.scene.contacts.append(collision.position)
 
-    def tell_entry(self, text):
+    def publish_entry(self, text):
         """An entry of the journal; the first one is the configuration."""
         self.config = self.config or text
         self.entries_since += 1
         self.journal.publish(String(data=text))
 
-    def tell_config(self):
+    def publish_config(self):
         """The configuration once more, unless it is among the last entries, which who joins gets anyway."""
         if self.entries_since > EVENTS.depth:
             self.entries_since = 1
             self.journal.publish(String(data=self.config))
 
-    def tell_heartbeat(self, shots, paused):
+    def publish_heartbeat(self, shots, paused):
         """That the sim is there: which start of it, how many strikes it has received, whether time stands."""
         self.heartbeat.publish(String(data=text({'session': self.session, 'shots': shots, 'paused': paused})))
 
-    def tell_scene(self, wind):
+    def publish_scene(self, wind):
         """Markers of the play."""
         if heard(self.play):
             self.play.publish(self.scene.markers(self.head(self.world.time), self.world, wind))
 
-    def tell_course(self):
+    def publish_course(self):
         """Markers of the course."""
         self.course.publish(course_markers(self.world.course, self.frame))
 
-    def tell_diagnosis(self, slow, values):
+    def publish_diagnosis(self, slow, values):
         """How the simulation does."""
         now = self.node.get_clock().now().to_msg()
         name = f'{self.node.get_fully_qualified_name()}: play'

@@ -3,7 +3,7 @@
 from time import monotonic
 
 
-class Pace:
+class RealTime:
     """An accumulator of wall time that gives it out in whole ticks.
 
     A timer may call late or skip calls; the time that passed counts all the same, so simulated

@@ -5,7 +5,7 @@ from collections import Counter
 KINDS = ('shot', 'wind', 'place')
 
 
-class Refusals:
+class RejectedInputs:
     """Counts refused inputs of each of `KINDS` and warns of them, at most once a second each.
 
     Parameters

@@ -19,8 +19,8 @@ from .lifecycle import run
 from .log_lines import effect_lines, with_reasons
 from .older_rclpy import SubscriptionEventCallbacks, UnsupportedEventTypeError, after_set
 from .parameters import PROGRAM, checked, declared
-from .publishers import Broadcast
-from .rejected_inputs import Refusals
+from .publishers import Publishers
+from .rejected_inputs import RejectedInputs
 from .takeover import Takeover, load_compiled
 
 COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
@@ -51,11 +51,11 @@ class SimNode(Node):
                          parameter_overrides=parameter_overrides)
         given = declared(self)
         self.world = self.new_world(given)
-        self.frame, self.refusals = given.frame_id, Refusals(self.get_logger())
-        broadcast = Broadcast(self, self.world, given, self.on_viewer, self.on_follower)
+        self.frame, self.rejected_inputs = given.frame_id, RejectedInputs(self.get_logger())
+        publishers = Publishers(self, self.world, given, self.on_viewer, self.on_follower)
         takeover = Takeover(self.world, given.engine, self.get_logger())
-        self.game = Game(self.world, broadcast, self.refusals, self.get_logger(), given, takeover)
-        self.game.journal.config(self.world, given._asdict(), broadcast.began)
+        self.game = Game(self.world, publishers, self.rejected_inputs, self.get_logger(), given, takeover)
+        self.game.journal.config(self.world, given._asdict(), publishers.began)
         self.subscribe(given)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
@@ -104,7 +104,7 @@ class SimNode(Node):
 
     def on_lost(self, event):
         """Count strikes that arrived and were dropped before anybody saw them."""
-        self.game.diagnosis.strikes_lost += event.total_count_change
+        self.game.diagnostics.strikes_lost += event.total_count_change
 
     def introduce(self):
         """Tell in the log what is played, what is simulated, and how to strike."""
@@ -135,9 +135,9 @@ class SimNode(Node):
         try:
             self.game.wind = checked_wind(triple(message.vector))
         except ValueError as error:
-            self.refusals.warn('wind', str(error))
+            self.rejected_inputs.warn('wind', str(error))
             return
-        self.game.diagnosis.note_wind()
+        self.game.diagnostics.note_wind()
 
     def in_frame(self, kind, message):
         """Whether `message` is in the course's frame or says nothing about it; if not, it is refused."""
@@ -145,7 +145,7 @@ class SimNode(Node):
         if frame in ('', self.frame):
             return True
         shown = frame if len(frame) <= LONGEST_SHOWN else f'{frame[:LONGEST_SHOWN]}...'
-        self.refusals.warn(kind, f'frame {shown!r} is not {self.frame!r}')
+        self.rejected_inputs.warn(kind, f'frame {shown!r} is not {self.frame!r}')
         return False
 
     def on_viewer(self):
@@ -178,9 +178,9 @@ class SimNode(Node):
         """Follow the parameters that may change."""
         for parameter in parameters:
             if parameter.name == 'accuracy':
-                self.game.be_exact(parameter.value)
+                self.game.set_accuracy(parameter.value)
             elif parameter.name == 'real_time_factor':
-                self.game.pass_at(parameter.value)
+                self.game.set_real_time_factor(parameter.value)
                 self.wake()
 
     def store(self, act):
@@ -201,7 +201,7 @@ class SimNode(Node):
 
     def on_heartbeat(self):
         """Tell that the node is there; one that hangs does not."""
-        self.game.broadcast.tell_heartbeat(self.game.shots, self.game.paused)
+        self.game.publishers.publish_heartbeat(self.game.shots, self.game.paused)
 
     def on_beat(self):
         """Once a second, moving or not: everything, and how the simulation does."""

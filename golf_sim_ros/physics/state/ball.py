@@ -54,7 +54,7 @@ BALL = np.dtype([
     ('support', 'i8'), ('material', 'i8'), ('normal', 'f8', 3), ('micro_bounce_end', 'f8'),
     ('micro_bounce_load', 'f8'), ('micro_bounce_air', 'f8', 3),
     # time stepping (JOINED, STEPPED or 0), for how many steps it has been still, what holds it (1 for the
-    # ground, 2 for a ball, summed), what rolling resistance takes [m/s]; how far around all contacts are known,
+    # ground, 2 for a ball, summed), what rolling resistance takes [m/s]; how far around contacts are known,
     # and whether other balls are on their way there; asleep: whether it leans on a ball
     ('time_stepping', 'i8'), ('still_steps', 'i8'), ('held_by', 'i8'), ('rolling_loss', 'f8'),
     ('contact_reach', 'f8'), ('watches_neighbours', 'i8'), ('sleeps_on_ball', 'i8'),

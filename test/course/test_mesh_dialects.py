@@ -14,7 +14,7 @@ from golf_sim_ros.physics import Shot, ground_height, simulate
 import numpy as np
 import pytest
 
-CASES = Path(__file__).parent / 'data' / 'cases'
+CASES = Path(__file__).parents[1] / 'data' / 'cases'
 SQUARE = 'v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\n'
 L_SHAPE = [(0, 0), (10, 0), (10, 4), (4, 4), (4, 10), (0, 10)]
 FRAME = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0), (3, 3), (3, 7), (7, 7), (7, 3), (3, 3)]

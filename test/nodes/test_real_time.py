@@ -3,7 +3,7 @@
 import pytest
 
 from golf_sim_ros.nodes import real_time
-from golf_sim_ros.nodes.real_time import Pace
+from golf_sim_ros.nodes.real_time import RealTime
 
 
 @pytest.fixture
@@ -20,7 +20,7 @@ def ticks(real_time, limit=10.0):
 
 @pytest.mark.parametrize('factor', [0.1, 1.0, 2.5, 30.0])
 def test_time_passes_at_the_factor_however_late_the_timer_calls(clock, factor):
-    steady, done = Pace(0.004, 5, factor), 0
+    steady, done = RealTime(0.004, 5, factor), 0
     for late in (0.02, 0.031, 0.0001, 0.5, 0.02, 0.4299):
         clock[0] += late
         done += ticks(steady)
@@ -28,27 +28,27 @@ def test_time_passes_at_the_factor_however_late_the_timer_calls(clock, factor):
 
 
 def test_a_stop_longer_than_the_limit_is_lost_and_counted(clock):
-    steady = Pace(0.01, 2)
+    steady = RealTime(0.01, 2)
     clock[0] += 60.0
     assert ticks(steady, 0.255) == 25
     assert steady.lost == pytest.approx(59.745)
 
 
 def test_what_the_simulation_stood_still_for_does_not_count(clock):
-    steady = Pace(0.01, 2)
+    steady = RealTime(0.01, 2)
     clock[0] += 60.0
     steady.skip()
     assert ticks(steady) == 0 and steady.lost == 0.0
 
 
 def test_many_ticks_come_in_portions_of_the_usual_size(clock):
-    steady = Pace(0.01, 5)
+    steady = RealTime(0.01, 5)
     clock[0] += 0.1401
     assert list(steady.portions(1.0, 0.0)) == [5, 9]
 
 
 def test_a_changed_factor_counts_from_then_on(clock):
-    steady = Pace(0.01, 5)
+    steady = RealTime(0.01, 5)
     clock[0] += 0.1001
     assert ticks(steady) == 10
     steady.factor = 0.5
@@ -57,7 +57,7 @@ def test_a_changed_factor_counts_from_then_on(clock):
 
 
 def test_who_hurries_goes_on_for_as_long_as_it_may(clock):
-    hasty = Pace(0.01, 5, 0.0)
+    hasty = RealTime(0.01, 5, 0.0)
     portions = []
     for ticks in hasty.portions(1.0, 0.05):
         portions.append(ticks)

@@ -12,7 +12,7 @@ from golf_sim_ros.course.package_files import share
 import numpy as np
 import pytest
 
-SCRIPT = Path(__file__).resolve().parent.parent / 'tools' / 'make_courses.py'
+SCRIPT = Path(__file__).resolve().parents[2] / 'tools' / 'make_courses.py'
 MANY = int(os.environ.get('GOLF_SIM_SHOTS', '50'))
 DROP = 12.0  # m: higher than all ground and trees
 LONGEST = 300.0  # s

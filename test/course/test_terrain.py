@@ -10,7 +10,7 @@ from golf_sim_ros.physics import Shot, ground_height, simulate
 import numpy as np
 import pytest
 
-CASES = Path(__file__).parent / 'data' / 'cases'
+CASES = Path(__file__).parents[1] / 'data' / 'cases'
 EAST, NORTH = 500_000.0, 5_300_000.0  # a corner in UTM
 ROWS, COLUMNS, CELL = 30, 41, 2.0
 X, Y = np.meshgrid(np.arange(COLUMNS) * CELL, np.arange(ROWS) * CELL)

@@ -6,7 +6,7 @@ import re
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics import World, ground_height
 
-TEXT = (Path(__file__).parents[1] / 'docs' / 'courses.md').read_text(encoding='utf-8')
+TEXT = (Path(__file__).parents[2] / 'docs' / 'courses.md').read_text(encoding='utf-8')
 PLAIN = 'format: 1\ntee: [0, 0]\nground: [{shape: plane, material: rough}]\n'
 
 

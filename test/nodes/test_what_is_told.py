@@ -7,7 +7,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_srvs.srv import SetBool
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.nodes.diagnostics import Diagnosis
+from golf_sim_ros.nodes.diagnostics import Diagnostics
 from processes import parameters, READY, wait_until
 from told_game import ToldGame
 
@@ -22,7 +22,7 @@ def test_no_warning_follows_a_pause(monkeypatch):
     told = ToldGame(monkeypatch, load_course('golf_without_friends'))
     clock = told.clock
     monkeypatch.setattr('golf_sim_ros.nodes.diagnostics.monotonic', clock)
-    told.game.diagnosis = Diagnosis()
+    told.game.diagnostics = Diagnostics()
     told.send('ball', (50.0, 0.0, 20.0))
     told.step(50)
     told.game.diagnose()

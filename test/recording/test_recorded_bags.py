@@ -14,7 +14,7 @@ from golf_sim_ros.recording.bag import read_bag  # noqa: E402
 from golf_sim_ros.recording.journal import made_with  # noqa: E402
 from golf_sim_ros.recording.replay import difference, rerun, shots, tick_of, world_of  # noqa: E402
 
-BAGS = Path(__file__).parent / 'data' / 'bags'
+BAGS = Path(__file__).parents[1] / 'data' / 'bags'
 KINDS = {  # statuses of the shots, kinds of collision, kinds of input
     'one_ball': ({'at_rest'}, {'bounce'}, {'strike', 'rest'}),
     'several_balls': ({'at_rest'}, {'ball', 'bounce'}, {'strike', 'place', 'rest'}),

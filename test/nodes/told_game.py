@@ -34,15 +34,15 @@ class ToldGame:
         monkeypatch.setattr('golf_sim_ros.nodes.real_time.monotonic', self.clock)
         self.given = Parameters(course='', balls=balls, real_time_factor=factor, rate=rate)
         self.world, self.entries, self.results, self.collisions = World(course, balls), [], [], []
-        self.log, self.refusals, self.broadcast = MagicMock(), MagicMock(), MagicMock()
-        self.broadcast.tell_entry = lambda text: self.entries.append({**opened(text), 'received': 0})
-        self.broadcast.tell_collision = self.collisions.append
-        self.broadcast.results.publish = lambda message: self.results.append(json.loads(message.data))
-        self.broadcast.scene.trails = defaultdict(list)
+        self.log, self.rejected_inputs, self.publishers = MagicMock(), MagicMock(), MagicMock()
+        self.publishers.publish_entry = lambda text: self.entries.append({**opened(text), 'received': 0})
+        self.publishers.publish_collision = self.collisions.append
+        self.publishers.results.publish = lambda message: self.results.append(json.loads(message.data))
+        self.publishers.scene.trails = defaultdict(list)
         takeover = Takeover(self.world, 'python', self.log)
-        self.game = Game(self.world, self.broadcast, self.refusals, self.log, self.given, takeover)
+        self.game = Game(self.world, self.publishers, self.rejected_inputs, self.log, self.given, takeover)
         for name in balls:
-            self.broadcast.scene.trails[name] = MagicMock()
+            self.publishers.scene.trails[name] = MagicMock()
         self.game.journal.config(self.world, self.given._asdict(), 0)
 
     def send(self, ball, velocity, spin=(0.0, 0.0, 0.0)):
