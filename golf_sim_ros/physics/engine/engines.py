@@ -27,7 +27,7 @@ class Engine(NamedTuple):
 
     name: str
     advance: Callable
-    turn_orientations: Callable
+    turn: Callable
     put_down: Callable
     keeps_dormant: bool
 
