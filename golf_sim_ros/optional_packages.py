@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How to get a library that only some tools need, told where it is missed."""
+"""How to install a library that only some tools need, said where it is missing."""
 
 # What apt has, on Ubuntu from 22.04 and Debian from 12; rosdep installs it with the rest of package.xml.
 APT = {'matplotlib': 'python3-matplotlib', 'scipy': 'python3-scipy', 'tqdm': 'python3-tqdm',
@@ -7,7 +7,7 @@ APT = {'matplotlib': 'python3-matplotlib', 'scipy': 'python3-scipy', 'tqdm': 'py
 
 
 def how_to_get(extra, *libraries):
-    """Return the ways to install `libraries`, all of which the pip extra `extra` of this package brings."""
+    """Ways to install `libraries`, all of which the pip extra `extra` of this package brings."""
     by_pip = f"pip install 'golf_sim_ros[{extra}]'"
     if not APT.keys() >= set(libraries):
         return f'{by_pip} (in a virtual environment; apt has no {" and no ".join(libraries)})'

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulator, the wind and, if wanted, RViz: ``ros2 launch golf_sim_ros golf.launch.py rviz:=true``.
 
-An argument that is left out says nothing to the nodes, so it never overrides a params file.
+An argument that is left out is not passed to the nodes, so it never overrides a params file.
 """
 
 from pathlib import Path
@@ -56,7 +56,7 @@ def generate_launch_description():
 
 
 def nodes(context):
-    """The nodes that are asked for; raises before any is started where one can't be."""
+    """Nodes that are asked for; raises before any is started where one can't be."""
     names = (*TEXTS, *LISTS, *NUMBERS, *OTHERS)
     given = {name: context.launch_configurations[name].strip() for name in names}
     common = {'namespace': given['namespace'],
@@ -90,7 +90,7 @@ def wind(context, given, common):
 
 
 def rviz(context, given, common):
-    """RViz, with what there is to see; RuntimeError where it is not installed."""
+    """RViz with its view of the game; RuntimeError where it is not installed."""
     try:
         ExecutableInPackage(package='rviz2', executable='rviz2').perform(context)
     except (LookupError, SubstitutionFailure):  # no package, no program in it

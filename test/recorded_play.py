@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A play that a world plays and a journal tells, as a sim would, and bags of it; no ROS."""
+"""A play of a world, with the messages that a sim would publish, and bags of it; no ROS."""
 from copy import deepcopy
 
 from rosbags.rosbag2 import StoragePlugin, Writer
@@ -37,7 +37,7 @@ STRIKES = 5  # of these that are played; the third is at a ball in motion
 
 
 class Sim:
-    """Plays, and keeps all it tells: topic, type, time received [ns], message."""
+    """Plays, and keeps all messages: topic, type, time received [ns], message."""
 
     def __init__(self, namespace='', start=START):
         self.namespace, self.start, self.told = namespace, start, []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is imported is declared, for apt and for pip; what apt has not is optional, and told when missed."""
+"""What is imported is declared, for apt and for pip; what apt has not is optional, and its lack reported."""
 import ast
 import re
 import runpy

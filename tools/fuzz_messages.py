@@ -152,7 +152,7 @@ class Attacker(Golfer):
         self.set(name, bad[self.rng.integers(len(bad))])
 
     def good_shot(self):
-        """What is told exactly of the good shot, from the tee and in still air."""
+        """Values of the good shot that are exact, from the tee and in still air."""
         self.barrier()
         self.set('accuracy', 'standard')
         self.send('wind', [0.0, 0.0, 0.0])

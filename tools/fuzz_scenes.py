@@ -252,7 +252,7 @@ def run(world, rate, watch):
 
 
 def check(world, events, struck):
-    """Raise `Trouble` where something is wrong with what was told, or with the balls."""
+    """Raise `Trouble` where something is wrong with the events, or with the balls."""
     results = [event for event in events if isinstance(event, Result)]
     if len({result.shot for result in results}) != struck or len(results) != struck:
         raise Trouble(f'{struck} strikes, results {[result.shot for result in results]}')

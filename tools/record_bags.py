@@ -78,7 +78,7 @@ class Player:
             self.wait(lambda: self.answers() > tried)
 
     def played(self):
-        """How many strikes the journal tells of."""
+        """Number of strikes in the journal."""
         return sum(entry['kind'] == 'strike' for entry in self.entries)
 
     def answers(self):
@@ -107,7 +107,7 @@ class Player:
 
 
 def keep_told(kept, message):
-    """Add what a message of JSON tells."""
+    """Add the object in a message of JSON."""
     kept.append(json.loads(message.data))
 
 

@@ -27,7 +27,7 @@ class Failed(RuntimeError):
 
 @contextmanager
 def nodes(*more):
-    """The processes of `NODES` by name; they are told to stop at the end, and must end with exit code 0.
+    """The processes of `NODES` by name; they get SIGINT at the end, and must end with exit code 0.
 
     `more` are further commands, sequences of a program's name and its arguments. They are stopped last.
     """
@@ -46,7 +46,7 @@ def nodes(*more):
 
 
 def stopped(process):
-    """Exit code of `process` after it was told to stop."""
+    """Exit code of `process` after a signal to end."""
     if process.poll() is None:
         process.send_signal(signal.SIGINT)
     try:
@@ -57,7 +57,7 @@ def stopped(process):
 
 
 class Spectator:
-    """What a stranger hears of the play over ROS 2.
+    """A client that gets what is published of the play over ROS 2.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class Spectator:
             String, 'shot/result', lambda message: self.results.append(json.loads(message.data)), EVENTS)
 
     def wait_for_ball(self):
-        """Return as soon as the ball is seen on the tee."""
+        """Wait until the ball is seen on the tee."""
         self._wait(lambda: self.poses, FIRST_START, 'the ball to be on the tee')
 
     def result(self, number):

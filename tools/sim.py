@@ -33,7 +33,7 @@ def main():
 
 
 def watch(processes):
-    """Return when one of `processes` ends."""
+    """Wait until one of `processes` ends."""
     while all(process.poll() is None for process in processes.values()):
         time.sleep(0.2)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What accuracy and each effect cost in time, measured on this machine: CSV, pictures, Markdown; no ROS."""
+"""Measure what accuracy and each effect cost in time, here: CSV, pictures, Markdown. Needs no ROS."""
 import argparse
 from pathlib import Path
 import sys
@@ -14,7 +14,7 @@ NEEDED = f'accuracy_study needs {", ".join(LIBRARIES)}: {how_to_get("study", *LI
 
 @in_pipes
 def main(args=None):
-    """Run the study; return the exit code."""
+    """Run the study and write its page; return the exit code."""
     prefer_compiled()
     parser = argparse.ArgumentParser(prog='accuracy_study', description=__doc__)
     parser.add_argument('--quick', action='store_true',

@@ -37,7 +37,7 @@ def main(args=None):
 
 
 def parser():
-    """Reader of the command line."""
+    """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='compile_physics', description=__doc__, epilog=EPILOG)
     reader.add_argument('--course', default='golf_without_friends',
                         help='only a course with effects of its own needs programs of its own')
@@ -58,7 +58,7 @@ def compiled(parts):
 
 
 def bar():
-    """A bar of a hundred percent with the time left, where tqdm is installed; else nothing is shown."""
+    """Progress bar of a hundred percent with the time left, where tqdm is installed; else `NoBar`."""
     try:
         from tqdm import tqdm
     except ImportError:
@@ -67,7 +67,7 @@ def bar():
 
 
 class NoBar:
-    """In place of tqdm's."""
+    """Shows nothing, in place of the bar of tqdm."""
 
     n = 100
 

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Tools in pipes: where nobody reads on, as in ``resimulate BAG | head -1``, they end without a word."""
+"""Programs in pipes: where their output is not read on, as in ``resimulate BAG | head -1``, they end."""
 from functools import wraps
 import os
 import sys
 
-UNREAD = 141  # exit code of who ends so: 128 and the number of SIGPIPE, as a shell tells it
+UNREAD = 141  # exit code of a program that ends so: 128 and the number of SIGPIPE, as in a shell
 
 
 def in_pipes(main):
-    """`main` of a tool, which returns an exit code, made to end quietly once its output is not read."""
+    """`main` of a program, which returns an exit code, made to end quietly once its output is not read."""
     @wraps(main)
     def run(args=None):
         try:
@@ -25,7 +25,7 @@ def in_pipes(main):
 
 
 def say(text):
-    """Print a line at once, if somebody reads it."""
+    """Print a line at once, if standard output is read."""
     try:
         print(text, flush=True)
     except BrokenPipeError:
@@ -33,7 +33,7 @@ def say(text):
 
 
 def print_nowhere():
-    """Let go what is still to be printed: Python would tell, at its end, that it could not be."""
+    """Drop what is still to be printed: Python would complain, at its end, that it could not be."""
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
         try:

@@ -12,7 +12,7 @@ from visualization_msgs.msg import MarkerArray
 from ..nodes.publishers import EVENTS, LATCHED, POINTS, STREAM
 
 DEEP = 1000  # messages that may wait to be written
-# Topics whose publishers are anybody's: who asks for the least hears them all.
+# Topics that any node may publish: the least QoS matches all of them.
 ANYBODYS = ('wind', '/clock', '/diagnostics')
 
 
@@ -25,12 +25,12 @@ class Topic(NamedTuple):
 
     @property
     def type_name(self):
-        """As in 'std_msgs/msg/String'."""
+        """Name of the type, as in 'std_msgs/msg/String'."""
         package, *_, name = self.kind.__module__.split('.')[0], self.kind.__name__
         return f'{package}/msg/{name}'
 
     def requested(self):
-        """QoS for hearing it all."""
+        """QoS of a subscription that gets every message."""
         asked = QoSProfile(depth=DEEP, durability=self.offered.durability)
         if self.name in ANYBODYS:
             asked.reliability = ReliabilityPolicy.BEST_EFFORT

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A ROS node that hits one shot and hears how it ends."""
+"""A ROS node that strikes a ball and waits for the result."""
 import json
 from math import atan2, hypot
 import os
@@ -25,9 +25,9 @@ AT_ONCE = 1.0   # s
 
 # Volatile, so that no earlier shot's result is taken for ours.
 RESULT_QOS = QoSProfile(depth=100)
-# Of a sim that tells how many strikes it has received: what is told while the link is cut comes later.
+# Of a sim with a heartbeat: what is published while the link is cut arrives later.
 LASTING_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-NOTICE = 2.9  # s without a sim, after which a person is told
+NOTICE = 2.9  # s without a sim, after which a line says so
 MARKERS_QOS = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -36,8 +36,7 @@ class NoShot(RuntimeError):
 
 
 class Player(Node):
-    """
-    A node beside a sim.
+    """A node beside a sim.
 
     Parameters
     ----------
@@ -73,8 +72,7 @@ class Player(Node):
         return self._shots.topic_name
 
     def find_sim(self):
-        """
-        Wait until a sim would hear a shot and its result would be heard.
+        """Wait until publisher and subscriptions match those of a sim.
 
         Raises
         ------
@@ -92,7 +90,7 @@ class Player(Node):
         return self.reach.is_fresh() if self.reach.is_offered() else not self._hopes()
 
     def _hopes(self):
-        """Return whether it is too early to say that a sim tells no heartbeat."""
+        """Whether it is too early to say that a sim publishes no heartbeat."""
         self._matched_at = self._matched_at or time.monotonic()
         return time.monotonic() < self._matched_at + AT_ONCE
 
@@ -102,14 +100,13 @@ class Player(Node):
             self._say(f'no sim answers on {self.shot_topic} yet')
 
     def _say(self, what):
-        """Tell a person, once."""
+        """Print a line for the user, once."""
         if what != self.said:
             self.said = what
             print(f'shoot: {what}', file=sys.stderr, flush=True)
 
     def way_to_hole(self):
-        """
-        Return direction and distance from the ball to the hole.
+        """Direction and distance from the ball to the hole.
 
         Returns
         -------
@@ -133,8 +130,7 @@ class Player(Node):
         return atan2(y, x), hypot(x, y)
 
     def strike(self, velocity, spin):
-        """
-        Strike the ball and wait until the shot has ended.
+        """Strike the ball and wait until the shot has ended.
 
         Parameters
         ----------
@@ -167,7 +163,7 @@ class Player(Node):
         return result
 
     def _listen_for_good(self, velocity, spin):
-        """Hear also what is told while the link is cut; return the last heartbeat."""
+        """Subscribe also to what is published while the link is cut; return the last heartbeat."""
         beat = self.reach.last
         self.received = beat['shots']
         self._lasting = [
@@ -184,7 +180,7 @@ class Player(Node):
             self.number = entry['shot']
 
     def _look_after(self, struck):
-        """Tell a person where the sim is; raise NoShot where it was lost, or has not taken the strike."""
+        """Say what became of the sim; raise `NoShot` where it was lost, or has not taken the strike."""
         now = self.reach.last
         if now['session'] != struck['session']:
             raise NoShot('the sim was started anew: the shot is lost')
@@ -212,7 +208,7 @@ class Player(Node):
         return all(a is not None and abs(a - b) <= ROUNDING for a, b in zip(told, struck))
 
     def _wait(self, condition, seconds, meanwhile=lambda since: None):
-        """Return whether `condition()` became true within so many seconds."""
+        """Whether `condition()` became true within so many `seconds`, spinning meanwhile."""
         since = time.monotonic()
         while not condition():
             if time.monotonic() > since + seconds:
@@ -227,7 +223,7 @@ class Player(Node):
             self.results.append(result)
 
     def _is_under_way(self):
-        """Return whether our shot is played, so that a rejection is that of another just like it."""
+        """Whether our shot is played, so that a rejection is that of another just like it."""
         late = time.monotonic() > self.struck_at + AT_ONCE
         return late and self.position != self.first_position
 
@@ -240,7 +236,7 @@ class Player(Node):
 
 
 def twist(velocity, spin):
-    """Return the message that strikes a ball with this velocity and spin."""
+    """Message that strikes a ball with this velocity and spin."""
     message = Twist()
     fill(message.linear, velocity)
     fill(message.angular, spin)

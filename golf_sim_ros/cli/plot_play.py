@@ -34,7 +34,7 @@ def main(args=None):
 
 
 def parser():
-    """Reader of the command line."""
+    """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='plot_play', description=__doc__)
     reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
     reader.add_argument('-o', '--output', default='play.png', metavar='FILE',
@@ -87,7 +87,7 @@ def course_under(play, name):
 
 
 def note(text):
-    """Tell something that the picture does not."""
+    """Print a line about something that the picture does not show."""
     print(f'plot_play: {text}', file=sys.stderr)
 
 

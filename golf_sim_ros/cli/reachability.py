@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a sim can be reached, by its heartbeat: a dead one has matched readers for a while."""
+"""Whether a sim can be reached, by its heartbeat: a dead one has matched subscriptions for a while."""
 import json
 import time
 
@@ -13,8 +13,7 @@ SOON = 3.0  # s: a sim that is reached and not paused has taken a strike long be
 
 
 class Reach:
-    """
-    Listens to the heartbeat of the sim in a node's namespace.
+    """Listens to the heartbeat of the sim in a node's namespace.
 
     Parameters
     ----------
@@ -35,24 +34,24 @@ class Reach:
         self.last, self.heard_at = beat, now
 
     def silence(self, now=None):
-        """Return for how long there was no beat [s]."""
+        """How long there was no heartbeat [s]."""
         now = time.monotonic() if now is None else now
         return float('inf') if self.heard_at is None else now - self.heard_at
 
     def is_offered(self):
-        """Return whether there is, or was until just now, a sim that tells a heartbeat."""
+        """Whether there is, or was until just now, a sim that publishes a heartbeat."""
         return self.heard_at is not None or self._node.count_publishers(self._beats.topic_name) > 0
 
     def is_fresh(self):
-        """Return whether the sim was there a moment ago."""
+        """Whether the last heartbeat is recent enough to strike."""
         return self.silence() < FRESH
 
     def is_lost(self):
-        """Return whether the sim cannot be reached."""
+        """Whether the sim cannot be reached."""
         return self.silence() > SILENT
 
     def has_had_time(self, since):
-        """Return whether the sim could be reached, and played, for long enough since a strike was sent."""
+        """Whether the sim could be reached, and was not paused, for long enough since a strike was sent."""
         now = time.monotonic()
         if self.last['paused']:
             self.reached_since = now

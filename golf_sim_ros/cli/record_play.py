@@ -21,12 +21,12 @@ from .pipes import in_pipes, say
 from .play_topics import OF_SIM, of_ball
 
 STORAGES = ('mcap', 'sqlite3')
-LINGER = 0.3  # s after the signal, for what is still on its way
+LINGER = 0.3  # s after the signal, for messages still on their way
 ONLY_WHEN_HEARD = ('/clock',)  # an empty topic of this name would disturb who plays the bag back
 
 
 class Recorder(Node):
-    """Writes all that is told on a sim's topics, as it comes.
+    """Writes all messages on a sim's topics into a bag, as they arrive.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Recorder(Node):
         self.topics[subscription.topic_name] = topic, subscription
 
     def follow_named(self):
-        """Record the balls that were named since the last call, and say so."""
+        """Record the balls that the journal named since the last call, and print their names."""
         new = [ball for ball in self.named if ball not in self.balls]
         for topic in [topic for ball in new for topic in of_ball(ball)]:
             self.follow(topic)
@@ -61,7 +61,7 @@ class Recorder(Node):
             say(f'recording {", ".join(new)} of {namespace} to {self.bag.path}; Ctrl-C ends it')
 
     def on_message(self, topic, data):
-        """Write one message; the journal also tells which balls there are."""
+        """Write one message; the journal also says which balls there are."""
         now = time.time_ns()
         name = self.resolve_topic_name(topic.name)
         self.begin(name, topic)
@@ -86,7 +86,7 @@ class Recorder(Node):
 
 
 def balls_in(text):
-    """Names of the balls, if `text` is the entry of a journal that tells them."""
+    """Names of the balls, if `text` is the configuration of a journal."""
     try:
         return opened(text).get('parameters', {}).get('balls', [])
     except JournalError:
@@ -94,7 +94,7 @@ def balls_in(text):
 
 
 def record(recorder, ending):
-    """Write what comes until the `ending` is told, and a little longer."""
+    """Write what arrives until a signal sets `ending`, and a little longer."""
     executor = EventsExecutor()
     executor.add_node(recorder)
     until = None
@@ -107,7 +107,7 @@ def record(recorder, ending):
 
 
 def parser():
-    """Reader of the command line."""
+    """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='record_play', description=__doc__)
     reader.add_argument('-o', '--output', default=f'{datetime.now():play_%Y_%m_%d_%H_%M_%S}',
                         help='folder to make; default: play_ with date and time')
@@ -120,7 +120,7 @@ def parser():
 
 @in_pipes
 def main(args=None):
-    """Record until told to stop; return the exit code."""
+    """Record until a signal ends it; return the exit code."""
     args = sys.argv if args is None else args
     options = parser().parse_args(remove_ros_args(args)[1:])
     ending = Ending()

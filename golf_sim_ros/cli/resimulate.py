@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Run recorded play again, without ROS: is it the same, and what would another accuracy change?"""
+"""Run recorded play again, without ROS: whether it is the same, and what another accuracy changes."""
 import argparse
 from math import dist
 import sys
@@ -35,7 +35,7 @@ def main(args=None):
 
 
 def parser():
-    """Reader of the command line."""
+    """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='resimulate', description=__doc__, epilog=EPILOG)
     reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
     reader.add_argument('--accuracy', choices=list(ACCURACY), help='also play every shot at this accuracy')
@@ -44,7 +44,7 @@ def parser():
 
 
 def resimulated(play, options):
-    """Run one recorded sim again and tell of every shot; whether all are the same."""
+    """Run one recorded sim again and print a line for every shot; whether all are the same."""
     world = world_of(play, options.course)
     introduce(play, world)
     found, engines = shots(play), engines_here(play, world)
@@ -55,7 +55,7 @@ def resimulated(play, options):
 
 
 def introduce(play, world):
-    """Tell what is played again, and on what if that is not what it was recorded on."""
+    """Print what is run again, and a note if versions or processor are not those of the recording."""
     config = play.config
     print(f'{play.namespace or "/"}: {world.course.name}, {config["parameters"]["rate"]:g} ticks a second, '
           f'accuracy {config["parameters"]["accuracy"]}')
@@ -67,7 +67,7 @@ def introduce(play, world):
 
 
 def engines_here(play, world):
-    """Engines that there are here, of those that played; says so where one is missing."""
+    """Engines that this machine has, of those that played; prints a note where one is missing."""
     if 'compiled' not in {engine_of(play, shot) for shot in shots(play)}:
         return {'python'}
     build = world.build(urgent=True)
@@ -82,7 +82,7 @@ def engines_here(play, world):
 
 
 def retold(play, world, shot, accuracy, engines):
-    """Tell of one shot, run by its engine if that is one of `engines`; whether it is the same."""
+    """Run one shot, by its engine if that is one of `engines`, and print the line; whether it is the same."""
     name = f'shot {shot.strike["shot"]} ({shot.strike["ball"]})'
     if shot.gap:
         print(f'{name}: journal entries {shot.gap} are missing: it cannot be run again')
@@ -104,7 +104,7 @@ def retold(play, world, shot, accuracy, engines):
 
 
 def compared(world, shot, tick, accuracy):
-    """What another accuracy does to a shot, in a line."""
+    """One line on what another accuracy changes in a shot."""
     rest, time = timed(world, shot, tick)
     other, faster = timed(world, shot, tick, accuracy)
     times = f'{1e3 * time:.3f} ms at {shot.strike["accuracy"]}, {1e3 * faster:.3f} ms at {accuracy}'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A `shot/result` for people to read."""
+"""Table of a `shot/result`, for people to read."""
 
 ENDINGS = {
     'at_rest': 'at rest', 'holed': 'in the hole', 'water': 'in the water',
@@ -10,8 +10,7 @@ WIDTH = 8   # of that of the numbers, two digits after the point, for putts
 
 
 def result_table(result, units):
-    """
-    Return a shot's result as lines of text.
+    """Lines of text for a shot's result.
 
     Parameters
     ----------

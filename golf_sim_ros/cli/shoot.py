@@ -18,8 +18,7 @@ from .shoot_arguments import parser
 
 
 def parsed(argv):
-    """
-    Return the shot that was typed.
+    """Parse the command line of a shot.
 
     Parameters
     ----------
@@ -45,7 +44,7 @@ def parsed(argv):
 
 
 def launched(options):
-    """Return the Launch of `options`: the club's, changed by what was given."""
+    """`Launch` of `options`: the club's, changed by what was given."""
     units, average = UNITS[options.units], _average(options)
     return Launch(
         speed=_given(options.speed, units.speed, average.speed),
@@ -55,7 +54,7 @@ def launched(options):
 
 
 def _average(options):
-    """Return the Launch from which the options depart."""
+    """`Launch` that the options change: the club's average, or none at all."""
     hit, power = options.club, options.power
     if hit is not None and hit.launch is not None:
         power = 1.0 if power is None else power
@@ -68,7 +67,7 @@ def _average(options):
 
 
 def _spins(options, units, average):
-    """Return backspin and sidespin by name."""
+    """Backspin and sidespin, by name."""
     by_axis = options.spin is not None or options.axis is not None
     by_parts = options.backspin is not None or options.sidespin is not None
     if by_parts and by_axis:
@@ -87,7 +86,7 @@ def _given(value, unit, otherwise):
 
 
 def publish_line(topic, velocity, spin):
-    """Return the line that strikes the ball when it is pasted into a shell, in full precision."""
+    """Line that strikes the ball when it is pasted into a shell, in full precision."""
     linear, angular = (', '.join(f'{axis}: {_yaml(number)}' for axis, number in zip('xyz', vector))
                        for vector in (velocity, spin))
     return (f'ros2 topic pub --once {topic} geometry_msgs/msg/Twist '
@@ -95,13 +94,13 @@ def publish_line(topic, velocity, spin):
 
 
 def _yaml(number):
-    """Return a number as YAML 1.1 reads it: 1e-05 would be a text there."""
+    """Text of a number as YAML 1.1 reads it: 1e-05 would be a text there."""
     text = repr(float(number))
     return text.replace('e', '.0e') if 'e' in text and '.' not in text else text
 
 
 def described(launch, hit, units):
-    """Return the launch as one line."""
+    """One line that describes the launch."""
     def show(number, unit, digits=1):
         return f'{round(number / unit.size, digits) + 0.0:.{digits}f} {unit.name}'
     return (f'{hit.name if hit else "shot"}: {show(launch.speed, units.speed)}, '
@@ -143,7 +142,7 @@ def main(args=None):
 
 
 def begun(args):
-    """Return the shot that was typed, after ROS was started with its own arguments."""
+    """Start ROS with its own arguments, and parse the others."""
     complete_environment()
     try:
         typed = parsed(remove_ros_args(args)[1:])

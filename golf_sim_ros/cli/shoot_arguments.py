@@ -26,7 +26,7 @@ exit code: 0 when the shot was played, 1 when it was not (one line says why), 2 
 
 
 def parser():
-    """Return the parser of the command line, without ROS's arguments."""
+    """Parser of the command line, without ROS's arguments."""
     made = argparse.ArgumentParser(
         prog='shoot', usage='shoot [CLUB] [OPTION ...] [--ros-args ...]',
         description='Hit one shot, typed as a launch monitor shows it, and print how it ends.',

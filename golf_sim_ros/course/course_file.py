@@ -34,7 +34,7 @@ UP = {'y': 'y', 'z': 'z'}  # axes of a mesh file
 
 
 def format_number(value, key):
-    """The number of the schema."""
+    """Checker of ``format``, the number of the schema."""
     if type(value) is not int or value != FORMAT:
         raise refused(key, value, f'{FORMAT}')
     return value
@@ -58,7 +58,7 @@ WATER = record(Water, {'polygon': polygon, 'level': number(), 'cut': CUTS}, ('po
 
 
 def load_course(name_or_path):
-    """A course, ready to be played.
+    """Load a course, ready to be played.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def load_course(name_or_path):
 
 
 def load_round(name_or_path):
-    """The courses of a round, in the order of play.
+    """Load the courses of a round, in the order of play.
 
     Parameters
     ----------
@@ -222,7 +222,7 @@ def even_around_hole(course, files):
 
 
 class MeshFile(NamedTuple):
-    """A mesh file as read: triangles, what was put right in it, SHA-256 of its bytes."""
+    """A mesh file as read: triangles, notes on what was repaired, SHA-256 of its bytes."""
 
     vertices: np.ndarray
     faces: np.ndarray
@@ -255,7 +255,7 @@ def mesh_of(known, folder, opened):
 
 
 def opened_mesh(path, up, scale):
-    """`MeshFile` of what is at `path`; a .gltf file is but the beginning of its mesh, so that counts too."""
+    """`MeshFile` of the file at `path`; the digest of a .gltf file covers the mesh too, which others hold."""
     vertices, faces, notes = read_mesh(path, up, scale)
     digest = sha256(bytes_of(path))
     if path.suffix.lower() == '.gltf':
@@ -301,7 +301,7 @@ def zone_of(known):
 
 
 def air(value, key):
-    """Weather, or an altitude in the standard atmosphere."""
+    """Checker of ``air``: weather, or an altitude in the standard atmosphere."""
     if 'altitude' in mapping(value, key):
         return standard_atmosphere(**ALTITUDE(value, key))
     weather = WEATHER(value, key)
@@ -311,7 +311,7 @@ def air(value, key):
 
 
 def effects(value, key):
-    """'auto', or names of effects; returns 'auto' or a tuple."""
+    """Checker of ``effects``: 'auto', or names; returns 'auto' or a tuple."""
     if value in ('auto', ['auto']):
         return 'auto'
     names = {name: name for name in physics.EFFECTS}
@@ -319,7 +319,7 @@ def effects(value, key):
 
 
 def to_come(value, key):
-    """What the schema knows and the physics does not yet; nothing of it is fine."""
+    """Checker of a key that the physics does not know yet: only an empty value passes."""
     if value != []:
         raise CourseError(f'{key} {shown(value)} is not yet supported; leave it out')
     return ()

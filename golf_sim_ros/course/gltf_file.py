@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What trimesh would read wrongly of glTF 2.0 (Khronos, ISO/IEC 12113), and in silence, is refused."""
+"""glTF 2.0 (Khronos, ISO/IEC 12113): refuses what trimesh would read wrongly without saying so."""
 from io import BytesIO
 import json
 from urllib.parse import unquote
@@ -20,7 +20,7 @@ WIDTHS = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4, 'MAT2': 4, 'MAT3': 9, 'M
 
 
 class Neighbours:
-    """What a .gltf file calls by name, from its own folder, as trimesh wants it."""
+    """Resolver for trimesh of the files that a .gltf file names, from its own folder."""
     def __init__(self, folder):
         self.folder = folder
 
@@ -53,7 +53,7 @@ def checked_gltf(raw, path):
 
 
 def json_of(raw):
-    """The part of a .glb file that says what is in it."""
+    """JSON chunk of a .glb file, which says what is in it."""
     file = BytesIO(raw)
     magic, version, _ = file.read(4), int.from_bytes(file.read(4), 'little'), file.read(4)
     size, kind = int.from_bytes(file.read(4), 'little'), file.read(4)

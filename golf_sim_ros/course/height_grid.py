@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A grid of heights as a file has it, and the arrays of NumPy that are the plainest of them."""
+"""Grids of heights as files have them, and the plainest of these: arrays of NumPy."""
 from io import BytesIO
 from math import prod
 from typing import NamedTuple, Optional
@@ -49,7 +49,7 @@ def npy(raw, unit):
 
 
 def check_size(raw):
-    """Refuse an array that tells of more than its file holds: numpy would make room for it first."""
+    """Refuse an array whose header says more than its file holds: numpy would allocate it first."""
     file = BytesIO(raw)
     version = np.lib.format.read_magic(file)
     if version in HEADERS:  # the others are of tables with names, and no heights

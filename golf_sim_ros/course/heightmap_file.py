@@ -99,7 +99,7 @@ class Places:
 
 
 def absent_of(grid, entry):
-    """Which heights of a grid stand for none."""
+    """Mask of the heights of a grid that stand for no data."""
     values = (entry['no_data'],) if 'no_data' in entry else CUSTOMARY
     return ~np.isfinite(grid.heights) | grid.missing | np.isin(grid.heights, values)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bytes of the files that a course consists of: regular files only, and no stand-ins for them."""
+"""Bytes of the files that a course consists of: regular files only, no pointers of Git LFS."""
 import os
 from pathlib import Path
 import stat

@@ -15,7 +15,7 @@ LAWS = {
 
 
 def restitution(value, key):
-    """A number, or a law of the approach speed; returns `Restitution`."""
+    """Checker of a number, or of a law of the approach speed; returns `Restitution`."""
     if isinstance(value, dict):
         return tagged('law', LAWS)(value, key)
     return Restitution(number(0, 1)(value, key))
@@ -36,7 +36,7 @@ FIELDS = {
 
 
 def entry(value, key, checkers=FIELDS):
-    """What a file says of one material; returns a dict of `Material`'s fields, and perhaps 'like'."""
+    """Checker of one material; returns a dict of `Material`'s fields, and perhaps 'like'."""
     content = fields(checkers)(value, key)
     if 'stimp' in content:
         if 'rolling_resistance' in content:

@@ -36,7 +36,7 @@ def read_mesh(path, up=None, scale=1.0):
     faces : ndarray (m, 3) of int
         Numbers of vertices.
     notes : list of str
-        What was put right, or looks wrong: a line each.
+        What was repaired, or looks wrong: a line each.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Heights that are not there: values that stand for none, and how they are filled."""
+"""Missing heights: values that stand for no data, and how they are filled."""
 import numpy as np
 
 # What programs write where there is no height, by custom: of Arc/Info, SRTM, GDAL and the like.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where the files that come with the package are: courses, materials, parameters."""
+"""Paths of the files that come with the package: courses, materials, parameters."""
 
 import os
 from pathlib import Path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What looks wrong of a course: meshes on their side or far from the tee."""
+"""Plausibility of a course: meshes on their side or far from the tee."""
 from math import dist
 from pathlib import Path
 
@@ -57,7 +57,7 @@ def reach(mesh):
 
 
 def reach_of_map(shape):
-    """The same of a height map."""
+    """`reach` of a height map."""
     return ', '.join(f'{axis} {low:g} to {high:g}' for axis, low, high in zip('xy', *map_corners(shape)))
 
 

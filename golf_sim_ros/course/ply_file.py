@@ -51,7 +51,7 @@ def ply(raw):
 
 
 def header(raw):
-    """Order of bytes ('' in text), `Element`s, and where what they tell of begins."""
+    """Order of bytes ('' in text), `Element`s, and where their rows begin."""
     end = raw.find(b'end_header')
     if not raw.startswith(b'ply') or end < 0:
         raise CourseError('is no PLY file')
@@ -124,7 +124,7 @@ def table(element, raw, place, order):
 
 
 def ragged(element, raw, place, order):
-    """The same of one with lists."""
+    """`table` of an element with lists."""
     columns = {name: [] for name, _, _ in element.properties}
     for _ in range(element.count):
         for name, sort, length in element.properties:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Values from a file, checked: a checker returns its value or says what is wrong with it.
+"""Checkers of values from a file: each returns its value or says what is wrong with it.
 
 A checker is called with a value and its key, ``ground[3].normal``, and raises `CourseError` with one
 line: key, value, what is allowed. Functions named after a thing (`number`, `polygon`) are checkers or,
@@ -14,7 +14,7 @@ from .simple_polygon import crossing
 FAR = 1e6  # m: beyond this no coordinate is meant
 
 LONGEST, CUT = 300, ' ... '  # letters of a message, and what stands for those left out
-MANY = 20  # names that are told of those that are known
+MANY = 20  # known names at most in a message
 
 _SHORT = Repr()
 _SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxother, _SHORT.maxdict = 3, 80, 80, 4
@@ -82,14 +82,14 @@ def number(least=-FAR, most=FAR):
 
 
 def flag(value, key):
-    """True or false."""
+    """Checker of true or false."""
     if not isinstance(value, bool):
         raise refused(key, value, 'true or false')
     return value
 
 
 def text(value, key):
-    """A line of text that is not empty."""
+    """Checker of a line of text that is not empty."""
     if not isinstance(value, str) or not value.strip() or not value.isprintable():
         raise refused(key, value, 'a line of text')
     return value
@@ -120,7 +120,7 @@ def vector(size, least=-FAR, most=FAR):
 
 
 def direction(value, key):
-    """Three numbers, not all 0; returns the unit vector."""
+    """Checker of three numbers, not all 0; returns the unit vector."""
     x, y, z = vector(3)(value, key)
     size = hypot(x, y, z)
     if size < 1e-9:
@@ -129,7 +129,7 @@ def direction(value, key):
 
 
 def polygon(value, key):
-    """Corners [x, y] of a polygon; returns a tuple of them. A last corner equal to the first is dropped."""
+    """Checker of corners [x, y]; returns a tuple of them, without a last one equal to the first."""
     corners = list_of(vector(2), 'a list of 3 or more corners [x, y]', 3)(value, key)
     if len(corners) > 3 and corners[0] == corners[-1]:
         corners = corners[:-1]
@@ -144,7 +144,7 @@ def polygon(value, key):
 
 
 def mapping(value, key):
-    """A mapping of names to anything."""
+    """Checker of a mapping of names to anything."""
     if not isinstance(value, dict):
         raise refused(key, value, 'a mapping (key: value)')
     return value

@@ -53,7 +53,7 @@ def first_height(said, axis, size):
 
 
 def esri_head(words):
-    """What the head says by name, and the words after it."""
+    """Values of the header by name, and the words after it."""
     said, place = {}, 0
     while place + 1 < len(words) and words[place].lower() in NAMES:
         said[words[place].lower()] = words[place + 1]
@@ -85,7 +85,7 @@ def geotiff(raw, unit):
         raise CourseError(HINT) from None
     try:
         with warnings.catch_warnings(), rasterio.MemoryFile(raw) as memory:
-            warnings.simplefilter('ignore')  # a file without coordinates is told below
+            warnings.simplefilter('ignore')  # a file without coordinates is refused below
             with memory.open(driver='GTiff') as file:
                 return grid_of(file)
     except (RasterioError, ValueError, OSError) as error:

@@ -28,7 +28,7 @@ class Loader(getattr(yaml, 'CSafeLoader', yaml.SafeLoader)):
         for first, found in yaml.SafeLoader.yaml_implicit_resolvers.items()}
 
     def construct_object(self, node, deep=False):
-        """What `node` stands for; CourseError with its line where it stands for nothing."""
+        """Value of `node`; CourseError with its line where it has none."""
         try:
             return super().construct_object(node, deep)
         except REFUSALS as error:
@@ -80,7 +80,7 @@ def parsed(raw):
 
 @contextmanager
 def uncollected():
-    """Without Python's search for garbage: of a large file it goes through all of it, again and again."""
+    """Context without garbage collection, which would go through all of a large file again and again."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -137,7 +137,7 @@ def _refuse_explosions(root):
 
 
 def _written(node):
-    """What a file has where `node` is, as far as it is told."""
+    """Text of `node` for a message."""
     return node.value if isinstance(node, yaml.ScalarNode) else '...'
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The picture of a play: where each part goes."""
+"""Picture of a play, and where its parts go."""
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -26,12 +26,12 @@ MARKS = (('strike', 'D', INK, 'white'), ('bounce', 'o', 'white', INK), ('end', '
 
 
 def draw(path, shots, course=None, title='', dpi=150):
-    """Write the `picture` of a play to `path`, in the format its name ends with; see there."""
+    """Write the `picture` of a play to `path`, in the format that its name ends with."""
     picture(shots, course, title, dpi).savefig(path, dpi=dpi)
 
 
 def picture(shots, course=None, title='', dpi=150):
-    """Return the picture of a play.
+    """Picture of a play.
 
     Parameters
     ----------

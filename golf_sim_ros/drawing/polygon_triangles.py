@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A polygon with holes, cut into triangles."""
+"""Triangulation of polygons with holes."""
 from collections import Counter
 from math import isclose
 
@@ -11,7 +11,7 @@ def triangles(outline, cuts=(), window=None, regions=()):
     and a sequence of polygons.
 
     The plane is sliced into slabs at the y of every corner and crossing. Within a slab no two edges
-    cross, so the pieces between neighbouring edges are trapezoids, each all inside or all outside::
+    cross, so the parts between neighbouring edges are trapezoids, each all inside or all outside::
 
         y1 ----/----\\--------/---
               / kept \\  cut  / kept

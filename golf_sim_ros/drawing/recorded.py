@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shots to be drawn, from what was recorded of a play."""
+"""Shots to be drawn, from the recording of a play."""
 import numpy as np
 
 from ..physics.result import Collision, Result
 from ..recording.bag import BagError
 from .shots import DrawnShot
 
-ROUNDED = 2e-4   # s: results tell durations, from which strikes are reckoned, to 1e-4
+ROUNDED = 2e-4   # s: durations in results, from which times of strikes are reckoned, are rounded to 1e-4
 AT = 2e-4        # m: a pose is at a place of a result, which is rounded to 1e-4
 
 
@@ -15,7 +15,7 @@ def recorded(recording):
 
     Parameters
     ----------
-    recording : golf_sim_ros.bag.Recording
+    recording : golf_sim_ros.recording.bag.Recording
 
     Returns
     -------
@@ -25,7 +25,7 @@ def recorded(recording):
     Raises
     ------
     golf_sim_ros.bag.BagError
-        A result or collision is not as a sim tells it.
+        A result or collision is not as a sim publishes it.
     """
     try:
         results = [frozen(Result, told) for told in recording.results if told['status'] != 'rejected']
@@ -48,8 +48,8 @@ def frozen(kind, told):
 def clock(recording, results):
     """ROS time [ns] of simulated time 0.
 
-    Without a journal nobody tells it. Then it is reckoned from the first pose after each shot, which
-    is told at the end or some milliseconds later.
+    Without a journal it is not recorded. Then it is reckoned from the first pose after each shot, which
+    is published at the end or some milliseconds later.
     """
     if recording.config:
         return recording.start
@@ -100,7 +100,7 @@ def path(track, result, begin, start):
 
 
 def wind(recording, strike, begin, start):
-    """Rows of a time and the wind from then on: as the journal tells it, else as it was told to the sim."""
+    """Rows of a time and the wind from then on: from the journal, else from the topic `wind`."""
     if strike and recording.config:
         rate = recording.config['parameters']['rate']
         later = [(entry['tick'] / rate, *entry['wind']) for entry in recording.journal

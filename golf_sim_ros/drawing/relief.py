@@ -9,7 +9,7 @@ COARSE = 4  # places of a grid to one that is always looked at
 
 
 def look_down(ground, xs, ys, heights, numbers):
-    """What lies highest at every place. Writes heights and numbers of materials; -1 without ground."""
+    """Find the highest ground at every place. Writes heights and numbers of materials; -1 without ground."""
     for i in range(len(xs)):
         z, part = surfaces.top(ground, xs[i], ys[i])
         heights[i] = z

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is drawn of a shot, wherever it comes from: a simulation or a recording."""
+"""Shots to be drawn, from a simulation or a recording."""
 from typing import NamedTuple
 
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What became of the shots, in numbers."""
+"""Table of the results of the shots."""
 from math import degrees, hypot
 
 import numpy as np
@@ -12,7 +12,7 @@ ENDINGS = {'at_rest': 'at rest', 'out_of_bounds': 'out of bounds', 'time_limit':
 
 
 def length(metres):
-    """A length to be read."""
+    """Text of a length."""
     return '' if metres is None else f'{metres:.2f}'
 
 
@@ -23,7 +23,7 @@ def aside(metres):
 
 
 def flight(value):
-    """Column of a value that only shots have which flew."""
+    """Function that gives the text of a value of a shot, or a dash where the ball did not fly."""
     return lambda shot: value(shot.result) if shot.flew else '–'
 
 
@@ -76,7 +76,7 @@ def table(axes, shots):
 
 
 def columns(shots):
-    """Those columns that tell something of `shots`."""
+    """Columns that are not empty for `shots`."""
     useless = set()
     if len({shot.result.ball for shot in shots}) == 1:
         useless.add('ball')

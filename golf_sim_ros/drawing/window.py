@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which part of the course is seen."""
+"""Part of the course that a picture shows."""
 from typing import NamedTuple
 
 import numpy as np

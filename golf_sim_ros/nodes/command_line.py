@@ -34,7 +34,7 @@ class Program(NamedTuple):
 
 
 def answered(program, words=None):
-    """Exit code where `words` leave nothing to run, after one line or the help; else None.
+    """Exit code where `words` leave nothing to run, after one line or the help is printed; else None.
 
     `words` are the arguments of the process, `sys.argv[1:]` if not given.
     """
@@ -99,7 +99,7 @@ def pairs(words):
 
 
 def misplaced(program, words):
-    """One line about the first word that does nothing where it stands, with the right command; or ''.
+    """One line about the first word that has no effect where it stands, with the right command; or ''.
 
     rcl takes a bare `NAME:=VALUE` for a remap rule, and leaves alone all other words before `--ros-args`.
     """
@@ -149,8 +149,8 @@ def unreadable(path):
 
 
 def rcl_objection(words):
-    """The same in the words of rcl, which reads them twice so that it is told in one line."""
-    set_logger_level('rcl', LoggingSeverity.FATAL)  # the half of it would come in a line before
+    """`objection` in the words of rcl, which parses the arguments twice, so that it is one line."""
+    set_logger_level('rcl', LoggingSeverity.FATAL)  # rcl would log half of it in a line before
     try:
         remove_ros_args(['', *words])
     except UNKNOWN as error:
@@ -198,7 +198,7 @@ def sections(path):
 
 
 def sections_of(name, content):
-    """The same of a part of the file; namespaces may hold nodes."""
+    """`sections` of a part of the file; namespaces may hold nodes."""
     for key, inside in content.items() if isinstance(content, dict) else ():
         if key == SECTION:
             yield name.rpartition('/')[2], set(dotted(inside))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ROS messages from records of the physics, and back."""
+"""Conversions between records of the physics and ROS messages."""
 from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
 from rclpy.time import Time
 from std_msgs.msg import Header, String
@@ -19,7 +19,7 @@ def triple(vector):
 
 
 def fill(message, vector):
-    """`message`, a Vector3 or Point, after `vector` was written to it."""
+    """`message`, a Vector3 or Point, with `vector` written into it."""
     message.x, message.y, message.z = (float(number) for number in vector)
     return message
 

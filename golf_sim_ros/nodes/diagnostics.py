@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How well the simulation keeps up, for /diagnostics."""
+"""How well the simulation keeps up with the clock, for /diagnostics."""
 from collections import deque
 from contextlib import contextmanager
 from math import ceil
@@ -14,7 +14,7 @@ SLOW = 0.95  # simulated seconds a wall second; below this a viewer notices
 
 
 class Diagnostics:
-    """Figures gathered while the simulation runs."""
+    """Figures gathered while the simulation runs: real-time factor, ticks made up, shares of a core."""
 
     def __init__(self):
         self.durations = deque([0.0], maxlen=1000)
@@ -39,15 +39,15 @@ class Diagnostics:
         self.publish_time += perf_counter() - began
 
     def note_wind(self):
-        """Note that a wind came."""
+        """Note that a wind message arrived."""
         self.wind_came = monotonic()
 
     def count(self, ticks, usual):
-        """Note that a step did `ticks` where in time it would do `usual`."""
+        """Count the ticks made up by a step of `ticks`, where one that is on time has `usual`."""
         self.made_up += max(0, ticks - ceil(usual))
 
     def mark(self, world):
-        """Note how far `world` is now: real-time factor and shares are those since the last mark."""
+        """Note the time of `world`: real-time factor and shares are those since the last mark."""
         time = world.time
         self.take_account(world.spent)
         now, (then, before) = monotonic(), self.last
@@ -55,7 +55,7 @@ class Diagnostics:
         self.last = now, time
 
     def take_account(self, spent):
-        """Shares [%] of the time since the last account; `spent` are cycles of the engine by stage."""
+        """Update the shares [%] of time since the last call; `spent` are cycles of the engine by stage."""
         new = {'clock': perf_counter(), 'cycles': cycles_now(), 'process': process_time(),
                'tick': self.tick_time, 'publish': self.publish_time, **spent}
         old, self.account = self.account, new
@@ -68,7 +68,7 @@ class Diagnostics:
                        'all of the process': passed['process'] / wall}
 
     def values(self, world, lost):
-        """Dict of names to what a person reads about `world`, which lost `lost` [s] of wall time."""
+        """Values to publish about `world`, texts by name; `lost` [s] of wall time were given up."""
         ordered = sorted(self.durations)
         return {
             'real-time factor': f'{self.factor:.3f}',
@@ -91,7 +91,7 @@ class Diagnostics:
         }
 
     def wind_age(self):
-        """Seconds since a wind came, as text."""
+        """Seconds since a wind message arrived, as text."""
         return 'no wind yet' if self.wind_came is None else f'{monotonic() - self.wind_came:.1f}'
 
 

@@ -8,7 +8,7 @@ import tempfile
 
 
 def complete_environment(environment=os.environ):
-    """Add what is missing to `environment`; what the user or ROS has set stays.
+    """Add the variables that are missing in `environment`; what the user or ROS has set stays.
 
     rclpy raises where it can write no log: without HOME (a bare container, a service), or with a HOME that
     belongs to somebody else. The wheels of ROS 2 come without a setup.bash that sets AMENT_PREFIX_PATH.
@@ -25,7 +25,7 @@ def complete_environment(environment=os.environ):
 
 
 def unsafe(environment=os.environ):
-    """What is missing of the security that `environment` asks ROS for, as one line; '' where nothing is.
+    """One line on what is missing of the security that `environment` asks ROS for; '' where nothing is.
 
     rclpy itself says no more than that it cannot be initialized.
     """
@@ -40,7 +40,7 @@ def unsafe(environment=os.environ):
 
 
 def _can_log_at_home(environment):
-    """Whether rclpy can write where it does by default; makes the folder if need be, as rclpy would."""
+    """Whether rclpy can write its log where it does by default; makes the folder if need be."""
     if not environment.get('HOME'):
         return False
     folder = Path(environment['HOME'], '.ros', 'log')

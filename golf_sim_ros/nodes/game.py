@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The game in time: what arrives is applied between ticks, what happens is told."""
+"""The game in time: inputs are applied between ticks, what happens is published and logged."""
 from time import perf_counter, process_time
 
 import numpy as np
@@ -15,26 +15,26 @@ from .real_time import RealTime
 CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
 REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
 BUSY = 0.95  # of the time between steps goes to simulating as fast as it can
-LONGEST_BUSY = 0.1  # s without hearing anything
+LONGEST_BUSY = 0.1  # s without a look at what arrived
 SCENE_RATE = 10.0  # play markers a second: they are large, and eyes are slow
 
 
 class Game:
-    """A world that goes with the wall clock.
+    """A world that follows the wall clock.
 
     Parameters
     ----------
     world : World
     publishers : Publishers
-        Where it is told.
+        Publish the play.
     rejected_inputs : RejectedInputs
-        Where it is told what was not done.
+        Warns of inputs that are rejected.
     log : rclpy.impl.rcutils_logger.RcutilsLogger
-        Where shots are told to people.
+        Gets one line for each shot.
     given : Parameters
         Its rates are those of ticks and of steps.
     takeover : Takeover
-        Told what the play costs, and asked between shots which engine goes on.
+        Notes what the play costs, and decides between shots which engine goes on.
     """
 
     def __init__(self, world, publishers, rejected_inputs, log, given, takeover):
@@ -49,25 +49,25 @@ class Game:
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
-        self.numbers = {}  # of strikes under way, by those of the world, which counts what it takes
+        self.numbers = {}  # of strikes under way, by those of the world, which counts only what it accepts
         self.inputs = []
         self.wind = self.blowing = (0.0, 0.0, 0.0)
-        self.paused = self.stood_still = False  # now, and at any time since the last diagnosis
-        self.failures = 0  # of balls that could not go on, as last told
+        self.paused = self.stood_still = False  # now, and at any time since the last diagnostics
+        self.failures = 0  # of balls that could not be simulated further, as last published
         self.began, self.spent = perf_counter(), process_time()  # when the last advance began
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
         self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
-        self.awake = set()  # balls whose pose was still changing when last told
+        self.awake = set()  # balls whose pose was still changing when last published
         self.course_due = self.all_due = True
 
     @property
     def asleep(self):
-        """Whether nothing changes until something arrives."""
+        """Whether nothing changes until an input arrives."""
         stands_still = self.real_time.hurries or not self.keeps_time
         return self.paused or stands_still and not self.world.moving
 
     def step(self):
-        """Let the time pass that has passed on the clock, apply what arrived, tell."""
+        """Advance by the time that has passed on the clock, apply what arrived, publish."""
         self.advance()
         if not self.world.moving:
             self.takeover.between_shots()
@@ -77,7 +77,7 @@ class Game:
             self.notify()
 
     def advance(self):
-        """Advance by as many whole ticks as are due; where they are many, tell in between."""
+        """Advance by as many whole ticks as are due; where they are many, publish in between."""
         passed, spent = perf_counter() - self.began, process_time() - self.spent
         self.began, self.spent = self.began + passed, self.spent + spent
         if self.paused:
@@ -93,7 +93,7 @@ class Game:
         self.advance_by_portions(moving)
 
     def advance_by_portions(self, moving):
-        """Advance by the ticks that are due."""
+        """Advance by the ticks that are due, publishing after each portion."""
         done = 0
         for ticks in self.real_time.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
             if done and self.world.moving:
@@ -108,7 +108,7 @@ class Game:
             self.diagnostics.count(done, self.real_time.usual * self.real_time.factor)
 
     def tick(self):
-        """Advance by one tick and tell what happened in it."""
+        """Advance by one tick and publish its events."""
         began = perf_counter()
         events = self.world.advance(self.real_time.tick)
         self.ticks += 1
@@ -119,7 +119,7 @@ class Game:
                 self.notify_events(events)
 
     def notify_events(self, events):
-        """Tell collisions and ends of shots."""
+        """Publish collisions and ends of shots."""
         for event in events:
             if isinstance(event, Result):
                 self.finish(event)
@@ -127,7 +127,7 @@ class Game:
                 self.publishers.publish_collision(event)
 
     def apply(self):
-        """Do what arrived, in order; the wind first, so that a shot starts in it."""
+        """Apply the inputs that arrived, in order; the wind first, so that a shot starts in it."""
         if self.wind != self.blowing:
             self.world.set_wind(self.wind)
             self.blowing = self.wind
@@ -139,7 +139,7 @@ class Game:
             self.notify_events(self.world.happened())
 
     def strike(self, name, velocity, spin):
-        """Strike a ball; a bad shot has its result at once."""
+        """Strike a ball; a rejected shot has its result at once."""
         self.shots += 1
         before = state_text(self.world)
         try:
@@ -167,7 +167,7 @@ class Game:
         self.all_due = True
 
     def reset(self):
-        """All balls back to the start; shots under way end as aborted."""
+        """Put all balls back to the start; shots under way end as aborted."""
         aborted = self.world.reset()
         self.journal.note('reset', self.ticks)
         self.notify_events([*self.world.happened(), *aborted])
@@ -177,7 +177,7 @@ class Game:
         self.all_due = True
 
     def finish(self, result):
-        """Tell the end of a shot."""
+        """Publish and log the end of a shot."""
         self.awake.add(result.ball)
         shot, ball = self.numbers.pop(result.shot), self.world[result.ball]
         self.journal.rest(self.ticks, shot, result, ball)
@@ -191,18 +191,18 @@ class Game:
             self.log.info(log_lines.line(result))
 
     def set_accuracy(self, accuracy):
-        """Simulate with another accuracy from now on."""
+        """Set the accuracy of the simulation from now on."""
         self.world.accuracy = accuracy
         if self.world.moving:
             self.journal.note('accuracy', self.ticks, accuracy=accuracy)
 
     def set_real_time_factor(self, factor):
-        """Let time pass `factor` times as fast as the clock from now on."""
+        """Set how many times as fast as the clock simulated time passes from now on."""
         self.advance()
         self.real_time.factor = factor
 
     def notify(self):
-        """Balls that move or have just stopped; everything that somebody waits for."""
+        """Publish time, balls that move or have just stopped, and markers where they are due."""
         scene_due = self.scene_due()
         self.notify_balls(self.all_due)
         if scene_due:
@@ -212,7 +212,7 @@ class Game:
         self.all_due = self.course_due = False
 
     def notify_balls(self, all_of_them=False):
-        """The time, and balls that move or have just stopped."""
+        """Publish the time, and balls that move or have just stopped."""
         moving = set(self.world.in_motion)
         self.publishers.publish_time()
         balls = {name: self.world[name]
@@ -223,13 +223,13 @@ class Game:
         self.awake = moving
 
     def scene_due(self):
-        """Whether the markers are due: seldom, but always where balls stop."""
+        """Whether the markers of the play are due: `SCENE_RATE` a second, and whenever balls stop."""
         self.steps += 1
         moving = set(self.world.in_motion)
         return self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
 
     def diagnose(self):
-        """Tell how well simulated time keeps up with the clock."""
+        """Publish how well simulated time keeps up with the clock."""
         self.diagnostics.mark(self.world)
         slow = self.diagnostics.factor < SLOW * self.real_time.factor and not self.stood_still
         self.stood_still = self.paused

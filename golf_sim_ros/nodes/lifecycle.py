@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How a node of this package runs: from the first line of `main` to its exit code."""
+"""The life of a node's process: from the first line of `main` to its exit code."""
 import signal
 import sys
 
@@ -24,7 +24,7 @@ REFUSED = (ValueError, ParameterException)  # a wrong parameter or file
 
 
 def say_nothing(unraisable):
-    """In place of `sys.unraisablehook`."""
+    """Ignore an exception that cannot be raised, in place of `sys.unraisablehook`."""
 
 
 class Ending:
@@ -40,7 +40,7 @@ class Ending:
             signal.signal(number, self.tell)
 
     def tell(self, number, frame):
-        """What a signal calls."""
+        """Handle a signal: note it, and interrupt what goes on while `at_once`."""
         self.told = True
         if self.at_once:
             sys.unraisablehook = say_nothing  # callbacks that are interrupted would print a traceback
@@ -84,7 +84,7 @@ def run(make_node, program, args=None):
 
 
 def checked(make_node, args):
-    """The node, or None after a line in the log that says what was wrong."""
+    """Node made by `make_node`, or None after a line in the log that says what was wrong."""
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
     except rclpy_implementation.RCLError as error:  # of what the arguments name: an enclave, a pipe

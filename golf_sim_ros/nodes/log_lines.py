@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a player hears of a shot: one line."""
+"""Lines of the log: one for each shot, and what is simulated."""
 from math import atan2, hypot, pi
 
 DEGREE = pi / 180
@@ -11,7 +11,7 @@ LONG = 20.0  # m; of shorter shots a player wants to know the centimetres
 
 
 def kind(velocity):
-    """Name of what a launch at `velocity` resembles."""
+    """Kind of shot that a launch at `velocity` resembles, by name."""
     x, y, z = velocity
     level = hypot(x, y)
     speed, angle = hypot(level, z), atan2(z, level)
@@ -49,7 +49,7 @@ def with_reasons(reasons):
 
 
 def side(metres, digits):
-    """How far off the line."""
+    """How far left or right of the line a shot ended, in words."""
     distance = f'{abs(metres):.{digits}f}'
     if float(distance) == 0.0:
         return 'straight'

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the rclpy of ROS 2 Humble (3.3) lacks, made of what it has; with a newer one, the real thing."""
+"""Stand-ins for what the rclpy of ROS 2 Humble (3.3) lacks; a newer one's own functions are used."""
 from functools import partial
 
 from rcl_interfaces.msg import ParameterEvent
@@ -14,13 +14,13 @@ except ImportError:
     from rclpy.qos_event import SubscriptionEventCallbacks, UnsupportedEventTypeError  # noqa: F401
     PublisherEventCallbacks = None
 
-PERIOD = 0.2  # s from one look at who listens to the next
+PERIOD = 0.2  # s from one count of subscriptions to the next
 
 
 def after_set(node, callback):
-    """Have `callback(parameters)` called whenever parameters of `node` have been set.
+    """Register `callback(parameters)`, called whenever parameters of `node` have been set.
 
-    Without `add_post_set_parameters_callback` the node listens to what it tells of itself.
+    Without `add_post_set_parameters_callback` the node subscribes to its own parameter events.
     """
     if hasattr(node, 'add_post_set_parameters_callback'):
         node.add_post_set_parameters_callback(callback)
@@ -30,7 +30,7 @@ def after_set(node, callback):
 
 
 def _on_event(node, callback, event):
-    """Tell the parameters that an event says were set, if it is about this node."""
+    """Pass on the parameters that an event says were set, if it is about this node."""
     if event.node == node.get_fully_qualified_name() and event.changed_parameters:
         callback([Parameter.from_parameter_msg(changed) for changed in event.changed_parameters])
 
@@ -47,7 +47,7 @@ def on_match(callback):
 
 
 def watch(node, publishers, callback):
-    """Call `callback` when one of `publishers` has more subscriptions, where no event tells (`on_match`)."""
+    """Call `callback` when one of `publishers` has more subscriptions, where `on_match` gives None."""
     if PublisherEventCallbacks is None:
         counts = [0] * len(publishers)
         node.create_timer(PERIOD, partial(_compare, publishers, counts, callback),
@@ -55,7 +55,7 @@ def watch(node, publishers, callback):
 
 
 def _compare(publishers, counts, callback):
-    """Call `callback` if anyone has joined since the last call. Writes counts."""
+    """Call `callback` if any subscription was added since the last call; writes `counts`."""
     now = [publisher.get_subscription_count() for publisher in publishers]
     joined = any(new > old for new, old in zip(now, counts))
     counts[:] = now
@@ -64,7 +64,7 @@ def _compare(publishers, counts, callback):
 
 
 def publisher_count(node, subscription):
-    """How many publishers a subscription of `node` has."""
+    """Number of publishers that a subscription of `node` has."""
     if hasattr(subscription, 'get_publisher_count'):
         return subscription.get_publisher_count()
     return node.count_publishers(subscription.topic_name)

@@ -84,12 +84,12 @@ def fitted(parameter, default):
 
 
 def fit(node, defaults):
-    """Let what was given to `node` for the parameters `defaults` fit, now and while it runs.
+    """Convert what was given to `node` for the parameters `defaults` to their types, now and while it runs.
 
     To be called before they are declared. Raises ValueError as `fitted` does; while the node runs, what
     does not fit is left to rclpy, which refuses it.
     """
-    overrides = node._parameter_overrides  # rclpy tells nobody of them before they are declared
+    overrides = node._parameter_overrides  # rclpy offers them nowhere before they are declared
     for name in defaults.keys() & overrides.keys():
         overrides[name] = fitted(overrides[name], defaults[name])
     if hasattr(node, 'add_pre_set_parameters_callback'):  # without it rclpy refuses an integer
@@ -109,7 +109,7 @@ def live(node, parameter, defaults):
 
 
 class Unknown(ParameterNotDeclaredException):
-    """What `ros2 param set` answers to a name that is not known; rclpy's own line is without it."""
+    """Answer of `ros2 param set` to a name that is not known; rclpy's own line does not have the name."""
 
     def __init__(self, name, names):
         Exception.__init__(self, unknown(name, names))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters of `sim_node`, declared with description, type, range, and checked."""
+"""Parameters of `sim_node`: declared with description, type and range, and checked."""
 from typing import NamedTuple
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -10,7 +10,7 @@ from .parameter_values import fit, warn_of_unknown
 
 
 class Parameters(NamedTuple):
-    """Values at the start, with their defaults."""
+    """Values of the parameters at the start, with their defaults."""
 
     course: str = 'golf_without_friends'
     rate: float = 250.0
@@ -73,7 +73,7 @@ def too_slow(factor):
 
 
 def declare(node, name, default):
-    """Value of parameter `name` of `node`."""
+    """Declare the parameter `name` of `node`, and give its value."""
     ranges = [FloatingPointRange(from_value=RANGE[name][0], to_value=RANGE[name][1])] if name in RANGE else []
     descriptor = ParameterDescriptor(
         description=MEANING[name], read_only=name not in LIVE, floating_point_range=ranges)

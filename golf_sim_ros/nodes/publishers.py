@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""All that `sim_node` publishes, with the qualities of service and why."""
+"""All that `sim_node` publishes, with the QoS of each topic and why."""
 from time import monotonic, time_ns
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -18,7 +18,7 @@ from .older_rclpy import on_match, watch
 
 STREAM = QoSProfile(depth=10)  # reliable, volatile: only what is new counts
 POINTS = QoSProfile(depth=100)  # a bouncing ball makes many at once
-# Nothing of it may be missed: who joins late or loses the link for a while gets the last ones.
+# Nothing of it may be missed: who subscribes late or loses the link for a while gets the last ones.
 EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 CLOCK_PERIOD = 0.01  # s of wall time at least
 BEAT = QoSProfile(depth=1)  # only the last one counts; reliable, so that it matches whatever is asked for
@@ -26,17 +26,17 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Publishers:
-    """Publishers, and what is needed to write their messages.
+    """Publishers of all topics of a game, and the messages on them.
 
     Parameters
     ----------
     node : rclpy.node.Node
-        Who publishes. Simulated time begins now, on its clock.
+        The node that publishes. Simulated time begins now, on its clock.
     world : World
     given : Parameters
-        Tells the frame of every stamp, and whether simulated time itself is the stamp and on /clock.
+        Has the frame of every stamp, and whether simulated time itself is the stamp and on /clock.
     on_viewer, on_follower : callable
-        Called when somebody subscribes to the course's markers, or to a ball.
+        Called when a node subscribes to the course's markers, or to a ball.
     """
 
     def __init__(self, node, world, given, on_viewer, on_follower):
@@ -60,7 +60,7 @@ class Publishers:
         self.heartbeat, self.session = make(String, 'heartbeat', BEAT), time_ns()
 
     def open_balls(self, matched):
-        """Publishers of each ball, by name."""
+        """Create the publishers of each ball, by name."""
         make, names = self.node.create_publisher, self.world.names
         self.poses = {name: make(PoseStamped, f'{name}/pose', STREAM, event_callbacks=matched)
                       for name in names}
@@ -73,14 +73,14 @@ class Publishers:
         return conversions.header(self.frame, self.began, time)
 
     def publish_time(self):
-        """Simulated time on /clock, where that is wanted, and not too often."""
+        """Publish simulated time on /clock, where that is wanted, once in `CLOCK_PERIOD` at most."""
         now = monotonic()
         if self.clock and now >= self.next_clock:
             self.next_clock = now + CLOCK_PERIOD
             self.clock.publish(Clock(clock=self.head(self.world.time).stamp))
 
     def publish_balls(self, balls, orientations):
-        """Poses and twists of `balls`, by name."""
+        """Publish poses and twists of `balls`, by name."""
         head = self.head(self.world.time)
         for name, ball in balls.items():
             if heard(self.poses[name]):
@@ -89,7 +89,7 @@ class Publishers:
                 self.twists[name].publish(conversions.twist(head, ball))
 
     def publish_collision(self, collision):
-        """A contact, as JSON and as a point."""
+        """Publish a collision, as JSON and as a point."""
         self.collisions.publish(conversions.collision_json(collision))
         both = [collision.ball] + [collision.with_] * (collision.kind == 'ball')
         for name in both:
@@ -98,37 +98,37 @@ class Publishers:
         self.scene.contacts.append(collision.position)
 
     def publish_entry(self, text):
-        """An entry of the journal; the first one is the configuration."""
+        """Publish an entry of the journal; the first one is the configuration."""
         self.config = self.config or text
         self.entries_since += 1
         self.journal.publish(String(data=text))
 
     def publish_config(self):
-        """The configuration once more, unless it is among the last entries, which who joins gets anyway."""
+        """Publish the configuration once more, unless who subscribes late gets it anyway."""
         if self.entries_since > EVENTS.depth:
             self.entries_since = 1
             self.journal.publish(String(data=self.config))
 
     def publish_heartbeat(self, shots, paused):
-        """That the sim is there: which start of it, how many strikes it has received, whether time stands."""
+        """Publish the heartbeat: number of the session, strikes received, whether time is paused."""
         self.heartbeat.publish(String(data=text({'session': self.session, 'shots': shots, 'paused': paused})))
 
     def publish_scene(self, wind):
-        """Markers of the play."""
+        """Publish markers of the play."""
         if heard(self.play):
             self.play.publish(self.scene.markers(self.head(self.world.time), self.world, wind))
 
     def publish_course(self):
-        """Markers of the course."""
+        """Publish markers of the course."""
         self.course.publish(course_markers(self.world.course, self.frame))
 
     def publish_diagnosis(self, slow, values):
-        """How the simulation does."""
+        """Publish how well the simulation keeps up."""
         now = self.node.get_clock().now().to_msg()
         name = f'{self.node.get_fully_qualified_name()}: play'
         self.diagnostics.publish(diagnostic(now, name, slow, values))
 
 
 def heard(publisher):
-    """Whether anybody listens; if not, a message of which nothing is kept need not be made."""
+    """Whether `publisher` has subscriptions; if not, a volatile message need not be made."""
     return publisher.get_subscription_count() > 0

@@ -4,7 +4,7 @@ from time import monotonic
 
 
 class RealTime:
-    """An accumulator of wall time that gives it out in whole ticks.
+    """Accumulator of wall time that gives it out in whole ticks.
 
     A timer may call late or skip calls; the time that passed counts all the same, so simulated
     time keeps up. After a stop longer than `limit` (a suspended laptop, a debugger) the rest of it
@@ -15,7 +15,7 @@ class RealTime:
     tick : float
         Length of a tick [s].
     usual : int
-        Ticks from one telling to the next.
+        Ticks from one publication to the next.
     factor : float
         Simulated seconds a wall second; 0: as fast as it can. May be set.
     """
@@ -32,9 +32,9 @@ class RealTime:
         return self.factor == 0.0
 
     def portions(self, limit, busy):
-        """Ticks to do now, in portions after each of which it is time to tell what happened.
+        """Ticks to do now, in portions after each of which it is time to publish.
 
-        At most `limit` [s] of wall time count; who hurries goes on for `busy` [s] of it.
+        At most `limit` [s] of wall time count; where time `hurries`, ticks go on for `busy` [s] of it.
         """
         if self.hurries:
             until = monotonic() + busy
@@ -49,7 +49,7 @@ class RealTime:
         yield ticks
 
     def due(self, limit):
-        """Ticks to do now; at most `limit` [s] of wall time count."""
+        """Number of ticks to do now; at most `limit` [s] of wall time count."""
         now = monotonic()
         elapsed = now - self.seen
         self.seen = now
@@ -60,5 +60,5 @@ class RealTime:
         return ticks
 
     def skip(self):
-        """Forget the time since the last call: the simulation was told to stand still."""
+        """Drop the wall time since the last call: the simulation was paused."""
         self.seen = monotonic()

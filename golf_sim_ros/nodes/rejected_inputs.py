@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Warnings about inputs that were not followed."""
+"""Warnings about inputs that were rejected."""
 from collections import Counter
 
 KINDS = ('shot', 'wind', 'place')
 
 
 class RejectedInputs:
-    """Counts refused inputs of each of `KINDS` and warns of them, at most once a second each.
+    """Counts rejected inputs of each of `KINDS` and warns of them, at most once a second each.
 
     Parameters
     ----------
@@ -18,7 +18,7 @@ class RejectedInputs:
         self.counts = Counter()
 
     def warn(self, kind, reason):
-        """Note one more of `kind`."""
+        """Count one more rejected input of `kind`, and warn of it with its `reason`."""
         self.counts[kind] += 1
         self.logs[kind].warning(
             f'{kind} refused ({self.counts[kind]} so far): {reason}', throttle_duration_sec=1.0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The node that plays: shots and wind come in, the play goes out."""
+"""The node that plays: subscribes to shots and wind, publishes the play."""
 from functools import partial
 import sys
 from time import perf_counter
@@ -32,7 +32,7 @@ EXAMPLE = '{linear: {x: 65.0, z: 14.0}, angular: {y: -280.0}}'
 
 
 class SimNode(Node):
-    """The node `golf_sim`. Callbacks store what arrives; one timer lets time pass.
+    """The node `golf_sim`: callbacks store what arrives, one timer advances the game.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ class SimNode(Node):
         self.introduce()
 
     def new_world(self, given):
-        """World as `given`, ready: no shot shall wait for a compiler."""
+        """`World` as `given`, ready: no shot shall wait for a compiler."""
         began = perf_counter()
         world = World(load_course(given.course), given.balls, given.effects, given.accuracy, engine='python')
         if given.engine == 'compiled':
@@ -73,7 +73,7 @@ class SimNode(Node):
         return world
 
     def subscribe(self, given):
-        """Open the ways in: topics, services, live parameters."""
+        """Create the inputs: subscriptions, services, live parameters."""
         first = self.world.names[0]
         self.strikes = self.hear_strikes('shot', first)
         for name in self.world.names:
@@ -86,28 +86,28 @@ class SimNode(Node):
         after_set(self, self.on_parameters)
 
     def hear_strikes(self, topic, name):
-        """Subscription to strikes of a ball; what DDS tells of those that do not arrive is told."""
+        """Subscribe to strikes of a ball; those that do not arrive are reported, where DDS knows of them."""
         on_strike = partial(self.on_shot, name)
         events = {'incompatible_qos': partial(self.on_unheard, topic), 'message_lost': self.on_lost}
         try:
             callbacks = SubscriptionEventCallbacks(**events)
             return self.create_subscription(Twist, topic, on_strike, COMMANDS, event_callbacks=callbacks)
-        except UnsupportedEventTypeError:  # a middleware that cannot tell
+        except UnsupportedEventTypeError:  # a middleware that cannot report it
             return self.create_subscription(Twist, topic, on_strike, COMMANDS)
 
     def on_unheard(self, topic, event):
-        """Warn of a publisher of strikes that is not heard."""
+        """Warn of a publisher of strikes whose QoS does not match."""
         if event.total_count_change > 0:
             policy = qos_policy_name_from_kind(event.last_policy_kind)
             self.get_logger().warning(f'a publisher of {topic} is not heard: its {policy} does not match; '
                                       'strikes must be published reliable')
 
     def on_lost(self, event):
-        """Count strikes that arrived and were dropped before anybody saw them."""
+        """Count strikes that arrived and were dropped before a callback got them."""
         self.game.diagnostics.strikes_lost += event.total_count_change
 
     def introduce(self):
-        """Tell in the log what is played, what is simulated, and how to strike."""
+        """Log what is played, what is simulated, and how to strike."""
         log, world = self.get_logger(), self.world
         log.info(f'course: {world.course.name} ({world.course.path})')
         for note in world.course.notes:
@@ -120,16 +120,16 @@ class SimNode(Node):
                  f"{self.strikes.topic_name} geometry_msgs/msg/Twist '{EXAMPLE}'")
 
     def on_shot(self, name, message):
-        """Keep a strike for the next step."""
+        """Store a strike for the next step."""
         self.store(partial(self.game.strike, name, triple(message.linear), triple(message.angular)))
 
     def on_place(self, name, message):
-        """Keep a place for the next step."""
+        """Store a place for the next step."""
         if self.in_frame('place', message):
             self.store(partial(self.game.place, name, triple(message.point)))
 
     def on_wind(self, message):
-        """Keep the wind; it is felt from the next step on."""
+        """Store the wind; it blows from the next step on."""
         if not self.in_frame('wind', message):
             return
         try:
@@ -140,7 +140,7 @@ class SimNode(Node):
         self.game.diagnostics.note_wind()
 
     def in_frame(self, kind, message):
-        """Whether `message` is in the course's frame or says nothing about it; if not, it is refused."""
+        """Whether `message` is in the course's frame or has an empty one; if not, it is rejected."""
         frame = message.header.frame_id
         if frame in ('', self.frame):
             return True
@@ -149,17 +149,17 @@ class SimNode(Node):
         return False
 
     def on_viewer(self):
-        """Somebody looks at the course: tell it once more."""
+        """Publish the course once more, for a new subscription."""
         self.game.course_due = True
         self.wake()
 
     def on_follower(self):
-        """Somebody follows a ball: tell where it is."""
+        """Publish where the balls are, for a new subscription."""
         self.game.all_due = True
         self.wake()
 
     def on_reset(self, request, response):
-        """Put all balls back, after what arrived before."""
+        """Put all balls back, after the inputs that arrived before."""
         self.game.inputs.append(self.game.reset)
         self.game.apply()
         self.wake()
@@ -167,7 +167,7 @@ class SimNode(Node):
         return response
 
     def on_pause(self, request, response):
-        """Let time stand still from now on, or go on."""
+        """Pause simulated time, or let it go on."""
         self.game.advance()
         self.game.paused = request.data
         self.wake()
@@ -175,7 +175,7 @@ class SimNode(Node):
         return response
 
     def on_parameters(self, parameters):
-        """Follow the parameters that may change."""
+        """Apply the parameters that may change while the node runs."""
         for parameter in parameters:
             if parameter.name == 'accuracy':
                 self.game.set_accuracy(parameter.value)
@@ -184,34 +184,34 @@ class SimNode(Node):
                 self.wake()
 
     def store(self, act):
-        """Keep `act`, to be done by the next step."""
+        """Store `act`, to be called by the next step."""
         self.game.inputs.append(act)
         self.wake()
 
     def wake(self):
-        """Let the timer run. One that runs is left alone, or a flood of messages would hold it up."""
+        """Start the timer. One that runs is left alone, or a flood of messages would hold it up."""
         if self.timer.is_canceled():
             self.timer.reset()
 
     def on_timer(self):
-        """One step; at rest the timer sleeps, so that a ball at rest costs next to nothing."""
+        """Do one step; at rest stop the timer, so that a ball at rest costs next to nothing."""
         self.game.step()
         if self.game.asleep:
             self.timer.cancel()
 
     def on_heartbeat(self):
-        """Tell that the node is there; one that hangs does not."""
+        """Publish the heartbeat; a node that hangs does not."""
         self.game.publishers.publish_heartbeat(self.game.shots, self.game.paused)
 
     def on_beat(self):
-        """Once a second, moving or not: everything, and how the simulation does."""
+        """Publish everything, and the diagnostics: once a second, moving or not."""
         self.game.all_due = True
         self.game.step()
         self.game.diagnose()
 
 
 def main(args=None):
-    """Play until told to stop; returns the exit code."""
+    """Run the simulator until a signal ends it; return the exit code."""
     return run(SimNode, PROGRAM, args)
 
 

@@ -6,11 +6,11 @@ from ..physics.jit.build import BUILD_FAILED, READY, missing
 A_THIRD = 1.0 / 3.0  # of a core, for a play: above that a compiler is worth its while
 LEAST = 2.0  # s of motion before the share means anything
 MOST = 20.0  # s of motion that count: older ones less and less
-WAITS_TO_TELL = 5.0  # s between two lines about how far the compiler is
+WAITS_TO_TELL = 5.0  # s between two lines in the log about how far the compiler is
 
 
 class Takeover:
-    """Which engine plays, and why.
+    """Decides which engine plays, and says why.
 
     Parameters
     ----------
@@ -19,7 +19,7 @@ class Takeover:
     wanted : str
         'auto': plain Python until it takes more than a third of a core while balls move; else as it is.
     log : rclpy.impl.rcutils_logger.RcutilsLogger
-        Where it is told.
+        Gets a line for each change of engine.
     """
 
     def __init__(self, world, wanted, log):
@@ -30,7 +30,7 @@ class Takeover:
 
     @property
     def why(self):
-        """Why the engine is what it is, one line."""
+        """One line on why the engine is what it is."""
         if not self.is_open:
             return self._why
         taken = f'the play in plain Python takes {self.share:.0%} of a core'
@@ -54,7 +54,7 @@ class Takeover:
             self.call_for_compiler()
 
     def call_for_compiler(self):
-        """Let the compiled engine be built meanwhile; where there is none, say what to install."""
+        """Have the compiled engine built meanwhile; where there can be none, log what to install."""
         if missing():
             self.stay(missing())
             return
@@ -62,7 +62,7 @@ class Takeover:
         self.log.info(f'{self.why}: a child process compiles the physics, and the play goes on')
 
     def stay(self, reason):
-        """Go on in plain Python for good."""
+        """Stay with plain Python for good."""
         self.log.warning(f'{self.why}, and goes on so: {reason}')
         self.is_open, self._why = False, reason
 
@@ -78,7 +78,7 @@ class Takeover:
         self.log.info(f'the compiled engine takes over: {self._why}')
 
     def values(self):
-        """What a person reads about it, a dict."""
+        """Values for the diagnostics, texts by name."""
         return {'engine': self.world.engine, 'engine, why': self.why}
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The wind generator: a new gust every ten seconds, published on `wind`."""
+"""The wind generator: publishes gusts, a new one every ten seconds, on `wind`."""
 import sys
 
 import numpy as np
@@ -14,7 +14,7 @@ from .lifecycle import run
 from .older_rclpy import after_set
 from .parameter_values import fit, warn_of_unknown
 
-# Who subscribes late gets the last wind at once; only the newest one counts.
+# A late subscription gets the last wind at once; only the newest one counts.
 WIND_QOS = QoSProfile(
     depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -44,8 +44,7 @@ PROGRAM = Program(
 
 
 class WindNode(Node):
-    """
-    The node `wind_generator`.
+    """The node `wind_generator`.
 
     Parameters
     ----------
@@ -67,7 +66,7 @@ class WindNode(Node):
         self._timer = self.create_timer(1.0 / given['publish_rate'], self._publish)
 
     def _declare(self, name):
-        """Return the value of the parameter `name`, declared with its range and description."""
+        """Declare the parameter `name` with its range and description, and give its value."""
         default, (least, greatest) = DEFAULTS[name], RANGES.get(name, (None, None))
         descriptor = ParameterDescriptor(description=MEANING[name], read_only=name in READ_ONLY)
         if isinstance(default, float):
@@ -77,7 +76,7 @@ class WindNode(Node):
         return self.declare_parameter(name, default, descriptor).value
 
     def _seed(self, wanted):
-        """Return the seed that is `wanted`, or a fresh one for -1; log it."""
+        """Seed that is `wanted`, or a fresh one for -1; logged."""
         seed = int(np.random.SeedSequence().generate_state(1)[0]) if wanted == -1 else wanted
         self.get_logger().info(f'seed {seed}: the same gusts come again with -p seed:={seed}')
         return seed
@@ -86,8 +85,7 @@ class WindNode(Node):
         return GustSettings(**{name: self.get_parameter(name).value for name in GustSettings._fields})
 
     def _time(self, now):
-        """
-        Return the time of the gusts [s]: simulated time itself, or wall time since the start.
+        """Time of the gusts [s]: simulated time itself, or wall time since the start.
 
         So equal seeds blow equal winds whenever nodes join a simulation, and one that starts again
         meets the same gusts again.
@@ -110,7 +108,7 @@ class WindNode(Node):
 
 
 def main(args=None):
-    """Run the wind generator until it is told to stop."""
+    """Run the wind generator until a signal ends it."""
     return run(WindNode, PROGRAM, args)
 
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recorded play: the journal, bags of it, and whether it runs again to the bit."""
+"""Recorded play: the journal, rosbag2 bags, and replay that is the same to the bit."""

@@ -24,7 +24,7 @@ OF_BALL = {'pose': POSE, 'twist': TWIST, 'shot': STRIKE}
 
 
 class Track(NamedTuple):
-    """What was told of a ball, in the order of the bag; `times` are ROS time [ns].
+    """What was published of a ball, in the order of the bag; `times` are ROS time [ns].
 
     ``positions`` (n, 3) [m] and ``orientations`` (n, 4) (x, y, z, w) at ``times`` (n,);
     ``velocities`` (m, 3) [m/s] and ``spins`` (m, 3) [rad/s] at ``twist_times`` (m,).
@@ -48,7 +48,7 @@ class Strike(NamedTuple):
 
 
 class Recording(NamedTuple):
-    """What one sim told, from its start to its end.
+    """What one sim published, from its start to its end.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class Recording(NamedTuple):
     journal : tuple of dict
         Entries, each once, in the order of their numbers, with one more key: ``received`` [ns].
     results, collisions : tuple of dict
-        As told, each once; vectors are lists.
+        As published, each once; vectors are lists.
     strikes : tuple of Strike
         What was sent to the sim, played or not.
     tracks : dict of str to Track
@@ -89,7 +89,7 @@ class Recording(NamedTuple):
 
 
 def read_bag(path):
-    """What the sims in a bag told.
+    """Recordings of the sims in a bag.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def sorted_out(topic, kind, sims):
 
 
 def begun(starts, name, message, path):
-    """Messages of the present start of a sim; one with another configuration begins another."""
+    """Messages of the present start of a sim; another configuration begins another start."""
     if name != 'journal':
         return starts[-1]
     entry = entry_of(message, path)
@@ -223,7 +223,7 @@ def texts(told, path, needed):
 
 
 def once(found, key):
-    """Those of `found` whose key is new: who joins twice is told twice."""
+    """Those of `found` whose key is new: a recorder that joins twice gets messages twice."""
     seen = {}
     for one in found:
         seen.setdefault(key(one), one)
@@ -231,7 +231,7 @@ def once(found, key):
 
 
 def strikes(parts, journal):
-    """Strikes as sent; what is sent to no ball by name is for the first."""
+    """Strikes as sent; those on `shot`, without the name of a ball, are for the first one."""
     balls = next((entry['parameters']['balls'] for entry in journal if entry['kind'] == 'config'), [''])
     for (ball, name), told in by_topic(parts):
         if name == 'shot':

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages in the files of a rosbag2 bag, undecoded: a connection of somebody else is never looked into."""
+"""Messages in the files of a rosbag2 bag, not decoded, so that topics of other nodes do no harm."""
 from contextlib import closing
 from io import BytesIO
 from pathlib import Path
@@ -46,7 +46,7 @@ def raw_messages(path):
 
 
 def metadata(path):
-    """What a bag's metadata.yaml says."""
+    """Content of a bag's metadata.yaml."""
     file = path / 'metadata.yaml'
     if not file.is_file():
         parts = sorted(part.name for part in path.iterdir() if part.suffix in SUFFIXES)
@@ -94,7 +94,7 @@ class Schemas(dict):
 
 
 class InMemory(NamedTuple):
-    """A file that is read already: of its end a damaged length gets what there is, and asks for no memory."""
+    """A file that is in memory: where a length in it is damaged, a read ends with the file."""
 
     raw: bytes
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A rosbag2 bag that is written as messages come, with the QoS that their publishers offer."""
+"""A rosbag2 bag, written as messages arrive, with the QoS that their publishers offer."""
 from pathlib import Path
 
 from ..optional_packages import how_to_get

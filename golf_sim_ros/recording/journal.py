@@ -23,7 +23,7 @@ class JournalError(ValueError):
 
 
 class Journal:
-    """Writes entries.
+    """Writes entries of the journal.
 
     Parameters
     ----------
@@ -35,33 +35,33 @@ class Journal:
         self.tell, self.entries = tell, 0
 
     def note(self, kind, tick, **values):
-        """Tell one more entry."""
+        """Write one more entry."""
         self.tell(sealed({'entry': self.entries, 'kind': kind, 'tick': tick, **values}))
         self.entries += 1
 
     def config(self, world, parameters, start):
-        """What the play is made of. `start`: ROS time [ns] at which simulated time began."""
+        """Write the configuration of the play. `start`: ROS time [ns] at which simulated time began."""
         course = {'name': world.course.name, 'path': world.course.path, 'digest': world.course.digest}
         self.note('config', 0, format=FORMAT, version=__version__, course=course, parameters=parameters,
                   start=start, made_with=made_with())
 
     def strike(self, tick, shot, name, strike, state):
-        """Strike number `shot`; `strike` is (velocity, spin), `state` that of the world just before."""
+        """Write strike number `shot`: `strike` is (velocity, spin), `state` that of the world just before."""
         velocity, spin = strike
         self.note('strike', tick, shot=shot, ball=name, velocity=velocity, spin=spin, **state)
 
     def rest(self, tick, shot, result, ball):
-        """The end of a shot; `ball` is the `BallState` at `tick`."""
+        """Write the end of a shot; `ball` is the `BallState` at `tick`."""
         self.note('rest', tick, shot=shot, ball=result.ball, status=result.status, state=standing(ball))
 
 
 def standing(ball):
-    """`BallState` for JSON."""
+    """Fields of a `BallState`, for JSON."""
     return {**ball._asdict(), 'phase': ball.phase.name}
 
 
 def made_with():
-    """What bits depend on, beside this package: they are promised where it is the same."""
+    """Versions, physics and processor: where they are the same, so is a play to the bit."""
     return {'physics': source_key(), 'python': platform.python_version(), 'numpy': _version('numpy'),
             'numba': _version('numba'), 'processor': _processor()}
 
@@ -108,6 +108,6 @@ def opened(line):
 
 
 def title(body):
-    """What to call an entry that may be damaged: its first two values, if they can be read."""
+    """Name of an entry that may be damaged: its first two values, if they can be read."""
     parts = body[:60].split(', ')[:2]
     return 'entry ' + ' '.join(part.partition(': ')[2].strip('"') for part in parts)

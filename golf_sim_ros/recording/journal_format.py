@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The journal as a file format: what it was in older versions, read for good.
+"""Formats of the journal: entries of older ones, converted to the present one.
 
 Format 1, of versions that wrote none: the fields of a ball in a strike's `balls` had other names. The numbers
 are the same.
@@ -19,7 +19,7 @@ RENAMED = {
 
 
 def current(entry):
-    """An entry of a journal of any format as one of this format."""
+    """Entry of the present format for `entry`, which is of any format."""
     balls = entry.get('balls')
     if entry['kind'] != 'strike' or not isinstance(balls, dict):
         return entry
@@ -27,7 +27,7 @@ def current(entry):
 
 
 def renamed(ball):
-    """The fields of a ball by their names of today."""
+    """Fields of a ball by their present names."""
     if not isinstance(ball, dict):
         return ball  # whoever restores it says that it is none
     return {RENAMED.get(name, name): value for name, value in ball.items()}

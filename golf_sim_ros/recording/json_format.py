@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Results, collisions and balls as JSON, as the topics tell them."""
+"""JSON of results, collisions and balls, as it is published."""
 from functools import lru_cache
 import json
 from math import isfinite
@@ -21,27 +21,27 @@ DIGITS = 4  # of lengths, speeds and angles in a result; `time` has two more
 
 
 def collision_text(collision):
-    """One JSON object, in full precision; null in place of what is not finite."""
+    """Collision as a JSON object, in full precision; null in place of what is not finite."""
     values = collision._asdict()
     values['with'] = values['with_']
     return text({key: plain(values[key]) for key in COLLISION})
 
 
 def result_text(result, shot):
-    """One JSON object for the end of strike number `shot`, rounded for people."""
+    """Result of strike number `shot` as a JSON object, rounded for people."""
     values = {**result._asdict(), 'shot': shot}
     rounded = {key: plain(values[key], DIGITS) for key in RESULT}
     return text({**rounded, 'time': plain(result.time, DIGITS + 2)})
 
 
 def rejection_text(shot, ball, velocity, spin, reason):
-    """One JSON object for strike number `shot`, which was not played."""
+    """Rejection of strike number `shot` as a JSON object."""
     values = (shot, ball, 'rejected', plain(velocity, DIGITS), plain(spin, DIGITS), reason)
     return text(dict(zip(REJECTION, values)))
 
 
 class Written(str):
-    """JSON already."""
+    """Text that is JSON already."""
 
 
 def state_text(world):
@@ -52,13 +52,13 @@ def state_text(world):
 
 
 def ball_text(ball):
-    """One JSON object, what `physics.state.plain` tells of a `BALL` record."""
+    """`BALL` record as a JSON object, of what `physics.state.serialize.plain` gives."""
     return f'{text(plain_of_tick(ball))[:-1]}, {segment_text(ball.tobytes()[TICK_BYTES:])[1:]}'
 
 
 @lru_cache(maxsize=1000)
 def segment_text(record):
-    """The part that lasts for many ticks; `record` are the bytes after those that a tick writes."""
+    """Part of `ball_text` that lasts a segment; `record` has the bytes after those that a tick writes."""
     return text(plain_of_segment(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
 
 

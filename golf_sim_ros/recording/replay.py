@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Recorded shots, run again: the same to the bit, or where they part."""
+"""Recorded shots, run again: whether they are the same to the bit, and where they differ first."""
 from collections import defaultdict
 import json
 from math import ceil
@@ -51,7 +51,7 @@ class Rerun(NamedTuple):
 
 
 class Difference(NamedTuple):
-    """The first that is not the same."""
+    """A value that is not the same again."""
 
     tick: int
     field: str
@@ -150,7 +150,7 @@ def begin(world, strike):
 
 
 def due(world, todo, now):
-    """What happens at once with the strike and the inputs until tick `now`; takes them from `todo`."""
+    """Events at the instant of the strike and of the inputs until tick `now`, which are taken from `todo`."""
     told = world.happened()
     while todo and todo[0]['tick'] <= now:
         aborted = applied(world, todo.pop(0))
@@ -159,7 +159,7 @@ def due(world, todo, now):
 
 
 def applied(world, entry):
-    """Results of applying an input."""
+    """Apply an input; results of the shots that it ends."""
     kind = entry['kind']
     if kind == 'strike':
         world.strike(entry['ball'], entry['velocity'], entry['spin'])
@@ -197,7 +197,7 @@ def difference(recording, shot, again, exact=True):
 
 
 def are_close(one):
-    """Whether a `Difference` is one of rounding: as between the engines, or of a result's last digit."""
+    """Whether a `Difference` is rounding, as between the engines or in the last digit of a result."""
     if isinstance(one.recorded, str) or one.recorded is None or one.again is None:
         return False
     within = 1.01 * 10.0 ** -DIGITS if one.field.endswith('of the result') else CLOSE
@@ -239,7 +239,7 @@ def rejected(result, strike):
 
 
 def off_path(recording, shot, again):
-    """Differences between the poses and twists told and the path."""
+    """Differences between recorded poses and twists and the path."""
     track = recording.tracks.get(shot.strike['ball'])
     if track is None:
         return
@@ -253,7 +253,7 @@ def off_path(recording, shot, again):
 
 
 def other_impacts(recording, shot, again, tick):
-    """Differences between the collisions told and those that happened again; some may not be recorded.
+    """Differences between recorded collisions and those of the `Rerun`; some may not be recorded.
 
     At one instant there may be several, as with the surfaces of a corner.
     """
@@ -272,14 +272,14 @@ def other_impacts(recording, shot, again, tick):
 
 
 def other_end(recording, shot, again):
-    """Differences between the end told, in journal and result, and that of the `Rerun`."""
+    """Differences between the recorded end, in journal and result, and that of the `Rerun`."""
     result = next((one for one in recording.results if one['shot'] == shot.strike['shot']), None)
     if result:
         now = json.loads(result_text(again.result, result['shot']))
         yield from differences(again.end, 'result', result, now)
     if shot.rest:
         rest = shot.rest
-        # An end within the strike was told with the tick after it, once.
+        # Older versions wrote an end within the strike at the tick after it.
         at_once = again.end == shot.strike['tick'] == rest['tick'] - 1
         now = {'tick': again.end + at_once, 'status': again.result.status, **standing(again.rest)}
         told = {'tick': rest['tick'], 'status': rest['status'], **rest['state']}
@@ -287,14 +287,14 @@ def other_end(recording, shot, again):
 
 
 def differences(tick, of, told, now):
-    """Differences between two dicts, in what was told then: an earlier version may have told less."""
+    """Differences between two dicts, in the recorded fields: an earlier version may have had fewer."""
     for field in told:
         if told[field] != now.get(field):
             yield Difference(tick, f'{field} of the {of}', told[field], now.get(field))
 
 
 def timed(world, shot, tick, accuracy=None):
-    """Where a shot ends, and the time [s] that its physics takes, in as few calls as can be.
+    """Where a shot ends, and the time [s] that its physics takes, in as few calls as possible.
 
     Parameters
     ----------
@@ -338,7 +338,7 @@ def run_fast(world, shot, tick, accuracy):
 
 
 def repeated(world, entry):
-    """Results of applying an input; at another accuracy its ball may still move, and it is left out."""
+    """`applied`, but for an input that is left out as its ball still moves, at another accuracy."""
     try:
         return applied(world, entry)
     except ValueError:

@@ -29,8 +29,7 @@ OTHER_NAMES = {'d': 'driver', '1w': 'driver', 'h': 'hybrid', 'rescue': 'hybrid',
 
 
 class Club(NamedTuple):
-    """
-    A club's average shot.
+    """A club and its average shot.
 
     Parameters
     ----------
@@ -58,8 +57,7 @@ CLUBS = dict(_clubs())
 
 
 def club(text):
-    """
-    Return the club of a name as people write it: ``7i``, ``7-iron``, ``3 wood``, ``Driver``.
+    """Club of a name as people write it: ``7i``, ``7-iron``, ``3 wood``, ``Driver``.
 
     Parameters
     ----------

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-r"""
-From what a launch monitor shows to velocity and spin.
+r"""Velocity and spin from what a launch monitor shows.
 
 Seen from above, the target ahead:     Seen from behind, along the flight:
 
@@ -22,8 +21,7 @@ from typing import NamedTuple
 
 
 class Launch(NamedTuple):
-    """
-    What a launch monitor shows.
+    """A launch as a launch monitor shows it.
 
     Parameters
     ----------
@@ -47,13 +45,12 @@ class Launch(NamedTuple):
 
 
 def parted(spin, axis):
-    """Return backspin and sidespin of a `spin` whose `axis` [rad] is tilted, positive to the right."""
+    """Backspin and sidespin of a `spin` whose `axis` [rad] is tilted, positive to the right."""
     return spin * cos(axis), spin * sin(axis)
 
 
 def velocity_and_spin(launch, heading=0.0):
-    """
-    Return velocity and angular velocity of a launched ball in the frame of the course.
+    """Velocity and angular velocity of a launched ball in the frame of the course.
 
     Parameters
     ----------

@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 
 class Unit(NamedTuple):
-    """
-    A unit by name.
+    """A unit with its name.
 
     Parameters
     ----------

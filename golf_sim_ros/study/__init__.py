@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What accuracy costs in time: scenes, methods, measurement, and the page that tells it."""
+"""Study of what accuracy costs in time: scenes, methods, measurement, and the page that says it."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each effect costs in a scene, and what becomes of the shot without it."""
+"""Cost of each effect in a scene, and how the shot ends without it."""
 from typing import NamedTuple
 
 from .measure import Stage, timed

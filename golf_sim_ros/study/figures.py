@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of the page that tells what accuracy costs."""
+"""Figures of the page on what accuracy costs."""
 from math import isfinite
 
 import matplotlib

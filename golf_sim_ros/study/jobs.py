@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a study does, row by row."""
+"""Jobs of a study: one function for each row."""
 from functools import lru_cache, partial
 
 from . import effects, promises, sizes, ticks

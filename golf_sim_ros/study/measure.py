@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measuring a method on a scene: how far off it is, and how long it takes."""
+"""Measurement of a method on a scene: how far off it is, and how long it takes."""
 from math import hypot, sqrt
 from time import perf_counter, process_time
 from typing import NamedTuple
@@ -20,9 +20,9 @@ NOWHERE = (np.nan, np.nan)
 class Row(NamedTuple):
     """One method on one scene.
 
-    ``setting`` is the method's dial; errors [m] against the scene's reference, of the first touch and
-    of the rest; ``time`` [s] of a whole shot, the median of several batches; ``compiled`` [s] that
-    its machine code took to be made or loaded. Not a number where a method has no such figure.
+    ``setting`` is the method's step or tolerance; errors [m] against the scene's reference, of the first
+    touch and of the rest; ``time`` [s] of a whole shot, the median of several batches; ``compiled`` [s]
+    that its machine code took to be made or loaded. Not a number where a method has no such figure.
     """
 
     scene: str
@@ -35,7 +35,7 @@ class Row(NamedTuple):
 
 
 class Truth(NamedTuple):
-    """Where a shot touches first, along and across its launch, and where all balls rest, (n, 3) [m].
+    """First touch of a shot, along and across its launch, and rests of all balls, (n, 3) [m].
 
     Not numbers where a method does not play as far.
     """
@@ -64,7 +64,7 @@ class Stage:
         self.start = self.world and self.world.state()
 
     def __call__(self, count=1):
-        """Play."""
+        """Play `count` times; the `Truth` of one play."""
         if self.world is None:
             return played(self.scene, self.accuracy, count, self.effects)
         for _ in range(count):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Methods of the accuracy study: ours over their dials, the presets, scipy's, and the report's."""
+"""Methods of the study: integrators over their settings, the presets, scipy's, and the report's."""
 from functools import partial
 from typing import Callable, NamedTuple
 
@@ -22,9 +22,10 @@ NOT_PLAYED = ((np.nan, np.nan, np.nan),)
 
 
 class Method(NamedTuple):
-    """``ready(scene)`` gives a function that plays as many equal shots as asked: it gives the `Truth` of one.
+    """A way to play a scene, at one of its settings.
 
-    ``setting`` is that of its dial.
+    ``ready(scene)`` gives a function that plays as many equal shots as asked, and gives the `Truth` of one;
+    ``setting`` is its step or tolerance.
     """
 
     name: str

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The page that tells what accuracy costs: figures, tables, and what they mean."""
+"""Page on what accuracy costs: figures, tables, and what they mean."""
 import csv
 import platform
 
@@ -37,7 +37,7 @@ def write_csv(rows, path):
 
 
 def facts(part, rows):
-    """What a section's text leaves open, by name."""
+    """Values that a section's text leaves open, by name."""
     made = {'methods': {'presets': tables.preset_table, 'equal': tables.equal_error_table,
                         'exceptions': tables.exceptions, 'report': tables.report_costs},
             'promises': {'table': tables.promise_table},

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far the presets are off over many random shots, against what they promise."""
+"""Errors of the presets over many random shots, against what they promise."""
 from functools import lru_cache, partial
 from math import pi
 from typing import NamedTuple

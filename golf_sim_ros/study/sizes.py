@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the time grows with balls, triangles and contacts."""
+"""Growth of the time with balls, triangles and contacts."""
 from functools import partial
 from typing import NamedTuple
 

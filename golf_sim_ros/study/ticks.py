@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether the error depends on how often the play is looked at, and what looking costs."""
+"""Whether the error depends on the tick rate, and what ticks cost."""
 from functools import partial
 from typing import NamedTuple
 

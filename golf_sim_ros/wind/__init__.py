@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where wind comes from: numpy only, no ROS."""
+"""Wind generators: numpy only, no ROS."""
 from .gusts import GustSettings, Gusts
 
 __all__ = ['Gusts', 'GustSettings']

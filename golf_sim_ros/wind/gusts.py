@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""
-Gusts: wind as a function of time.
+"""Gusts: wind as a function of time.
 
 Every gust and every step of the turbulence has a random generator of its own, named by seed and
 number. So the wind at a time depends on the seed, the settings and that time alone: it may be
@@ -22,8 +21,7 @@ _BLOCK = 40 * _STEPS         # after these steps only exp(-40) of a value is lef
 
 
 class GustSettings(NamedTuple):
-    """
-    What the gusts are like.
+    """Settings of the gusts.
 
     Parameters
     ----------
@@ -50,8 +48,7 @@ class GustSettings(NamedTuple):
 
 
 class Gusts:
-    """
-    Wind as a function of time, with settings that may change meanwhile.
+    """Wind as a function of time, with settings that may change meanwhile.
 
     Parameters
     ----------
@@ -67,14 +64,14 @@ class Gusts:
         self._left_over = (0.0, 0.0)   # how far the wind was from the new settings' when they changed
 
     def wind(self, time):
-        """Return the wind's velocity (x, y, z) [m/s] at `time` [s]."""
+        """Velocity of the wind (x, y, z) [m/s] at `time` [s]."""
         x, y = turbulent_wind(self.settings, self.seed, time)
         since = time - self._changed_at
         left = 1.0 - _eased(since, self.settings.ramp) if since >= 0.0 else 0.0
         return x + left * self._left_over[0], y + left * self._left_over[1], 0.0
 
     def change(self, settings, time):
-        """Go over to new `settings` from `time` on, eased in over their ramp."""
+        """Change to new `settings` from `time` on, eased in over their ramp."""
         old_x, old_y, _ = self.wind(time)
         new_x, new_y = turbulent_wind(settings, self.seed, time)
         self.settings = settings
@@ -83,7 +80,7 @@ class Gusts:
 
 
 def gust(settings, seed, number):
-    """Return the wind (x, y) [m/s] of the gust `number`, any integer, once it is eased in."""
+    """Wind (x, y) [m/s] of the gust `number`, any integer, once it is eased in."""
     by_speed, by_direction = _draws(seed, number)
     speed = max(0.0, settings.speed + by_speed * settings.speed_spread)
     direction = settings.direction + by_direction * settings.direction_spread
@@ -96,7 +93,7 @@ def _draws(seed, number):
 
 
 def gust_wind(settings, seed, time):
-    """Return the wind (x, y) [m/s] at `time` [s] without turbulence."""
+    """Wind (x, y) [m/s] at `time` [s], without turbulence."""
     number = floor(time / settings.interval)
     ramp = min(settings.ramp, settings.interval)
     share = _eased(time - number * settings.interval, ramp)
@@ -105,7 +102,7 @@ def gust_wind(settings, seed, time):
 
 
 def turbulent_wind(settings, seed, time):
-    """Return the wind (x, y) [m/s] at `time` [s]."""
+    """Wind (x, y) [m/s] at `time` [s], with turbulence."""
     x, y = gust_wind(settings, seed, time)
     if settings.turbulence == 0.0:
         return x, y
@@ -115,8 +112,7 @@ def turbulent_wind(settings, seed, time):
 
 
 def turbulence(seed, time):
-    """
-    Return two independent Ornstein-Uhlenbeck processes at `time`.
+    """Values of two independent Ornstein-Uhlenbeck processes at `time`.
 
     Both have mean 0, variance 1 and correlation time 1: the covariance of values a time t apart
     is exp(-t). The steps are exact, whatever their length: u exp(-h) + sqrt(1 - exp(-2h)) N(0, 1).
@@ -135,7 +131,7 @@ def _at_step(seed, step):
 
 @lru_cache(maxsize=4)
 def _walk(seed, block):
-    """Return the processes at the steps of a `block`, begun one block earlier, long forgotten."""
+    """Values of the processes at the steps of a `block`; they begin one block earlier, long forgotten."""
     h = 1.0 / _STEPS
     kept, kick = exp(-h), sqrt(1.0 - exp(-2.0 * h))
     kicks = kick * np.concatenate([_noise(seed, block - 1), _noise(seed, block)])
@@ -156,7 +152,7 @@ def _between(a, b, share):
 
 
 def _eased(since, ramp):
-    """Return the share, 0 to 1, of what is eased in `since` a time, without a kink at either end."""
+    """Share, 0 to 1, of a change that began `since` [s] ago, smooth at both ends of the `ramp`."""
     if since >= ramp:
         return 1.0
     share = since / ramp

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Bags of plays that were never told over ROS: a world is played, and written as a sim tells it."""
+"""Bags of plays that were never on ROS: a world is played, and written as a sim publishes it."""
 import numpy as np
 
 from golf_sim_ros.course import load_course

@@ -15,7 +15,7 @@ from recorded_play import bag, changed, LAST, made, replaced, Sim, STRIKES, with
 
 @pytest.fixture(scope='module')
 def told():
-    """What a sim told of two balls in gusts: struck in flight, placed, reset."""
+    """Messages of a sim: two balls in gusts, struck in flight, placed, reset."""
     told = Sim().play()
     entries = [opened(one[3].data) for one in told if one[0] == '/journal']
     assert sum(entry['kind'] == 'strike' for entry in entries) == STRIKES

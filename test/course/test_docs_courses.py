@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What docs/courses.md tells to copy works."""
+"""What docs/courses.md offers to copy works."""
 from pathlib import Path
 import re
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mesh files: what is read of each format, what is put right and told, and what is refused."""
+"""Mesh files: what is read of each format, what is repaired and noted, and what is refused."""
 import sys
 
 from golf_sim_ros.course import load_course

@@ -127,7 +127,7 @@ class Client:
 
 
 class Golfer(Client):
-    """A client with one ball: strikes it, and sees all that is told from now on.
+    """A client with one ball: strikes it, and gets all that is published from now on.
 
     Subscriptions are announced in order: a sim whose pose arrives has found those before it.
     """
@@ -165,7 +165,7 @@ class Golfer(Client):
         return [json.loads(message.data) for message in self.collisions]
 
     def heartbeat(self):
-        """Wait until the sim has told a newcomer where the ball is: all it told before has arrived."""
+        """Wait until a new subscription got the pose: all that the sim published before has arrived."""
         seen, heard = len(self.poses), []
         # It stays until the node goes: rclpy's executor may stumble over one that is destroyed as it waits.
         self.node.create_subscription(PoseStamped, f'{self.ball}/pose', heard.append, 100)

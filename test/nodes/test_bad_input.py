@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sim must not follow: it is refused, told, and forgotten to the bit."""
+"""Inputs that a sim must not follow: they are rejected, logged, and forgotten to the bit."""
 import json
 from math import inf, nan
 

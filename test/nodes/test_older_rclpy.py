@@ -66,7 +66,7 @@ def test_where_events_tell_who_joins_nobody_looks():
 def test_the_sim_notices_who_joins_and_plays(start_as_humble, client, make_golfer):
     sim = start_as_humble('sim_node', *parameters('/old_sim', real_time_factor=10.0))
     sim.wait_for(READY)
-    markers = client.listen(MarkerArray, '/old_sim/course/markers')  # volatile: only what is told once more
+    markers = client.listen(MarkerArray, '/old_sim/course/markers')  # volatile: only what is sent again
     poses = client.listen(PoseStamped, '/old_sim/ball/pose')
     wait_until(lambda: markers and poses, 'the course and the ball are told to who joins')
     result = make_golfer('/old_sim').play((20.0, 0.0, 5.0), (0.0, -100.0, 0.0))

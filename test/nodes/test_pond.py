@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A pond over DDS: what a player is told of a ball in the water, and where it is then."""
+"""A pond over DDS: the result of a ball in the water, and where it is then."""
 import json
 
 import pytest

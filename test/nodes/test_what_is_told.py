@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a sim tells of things that go wrong around it: once, short, and only if they do."""
+"""What a sim logs of things that go wrong around it: once, short, and only if they do."""
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, Vector3Stamped

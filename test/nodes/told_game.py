@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A `Game` without DDS, on a clock that only tests turn, and all that it tells."""
+"""A `Game` without DDS, on a clock that only tests turn, and all that it publishes."""
 from collections import defaultdict
 import json
 from types import SimpleNamespace
@@ -27,7 +27,7 @@ class TurnedClock:
 
 
 class ToldGame:
-    """A game on `course`; `results` and `entries` are all that it told of shots and of inputs."""
+    """A game on `course`; `results` and `entries` are all that it published of shots and of inputs."""
 
     def __init__(self, monkeypatch, course, balls=('ball',), factor=1.0, rate=250.0):
         self.clock = TurnedClock()

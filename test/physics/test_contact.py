@@ -397,7 +397,7 @@ def test_a_putt_uphill_stays_or_comes_back(tilt, rests):
     assert way == pytest.approx(2 * 2 / (2 * decel), abs=EXACT) if rests else way < 0
 
 
-# The tail of bounces too small to follow
+# Micro-bounces, too small to follow
 
 def rests_with(settle, velocities, spins, course, effects=GRAVITY):
     """Where shots in vacuum rest when rebounds slower than `settle` are summed."""

@@ -21,7 +21,7 @@ STORAGES = ('mcap', 'sqlite3')
 
 @pytest.fixture(scope='module')
 def told():
-    """What a sim told of a chip in a gust."""
+    """Messages of a sim: a chip in a gust."""
     inputs = [(3, 'strike', ('red', CHIP, SPIN)), (50, 'wind', ((3.0, 0.0, 0.0),))]
     return recorded_play.Sim().play(inputs, 1500)
 

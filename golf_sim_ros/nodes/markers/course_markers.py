@@ -96,7 +96,7 @@ def wall(plane):
 
 
 def lifted(place, normal, pieces):
-    """`pieces`, materials with triangles of (x, y) of each, in the plane through `place`."""
+    """`pieces`, pairs of a material and triangles of (x, y), with z of the plane through `place`."""
     def height(x, y):
         return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
     return [(material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])

@@ -27,13 +27,13 @@ class Trail:
         self.clear()
 
     def clear(self):
-        """Start again."""
+        """Drop all places."""
         self.places = []
         self.every = 1
         self.seen = 0
 
     def add(self, place):
-        """Take `place`, or not, if it is not its turn."""
+        """Add `place`, unless it is one that is left out."""
         if self.seen % self.every == 0:
             self.places.append(tuple(place))
         self.seen += 1
@@ -43,7 +43,7 @@ class Trail:
 
 
 class Scene:
-    """What is remembered of the play in `world` to draw it."""
+    """Trails and last contacts of the play in `world`, as markers."""
 
     def __init__(self, world):
         most = max(LEAST, min(TRAIL, TRAILS // len(world.names)))
