@@ -2,9 +2,7 @@
 """Conversions between records of the physics and ROS messages."""
 from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
 from rclpy.time import Time
-from std_msgs.msg import Header, String
-
-from ..recording.json_format import collision_text, rejection_text, result_text
+from std_msgs.msg import Header
 
 
 def header(frame, start, time):
@@ -46,18 +44,3 @@ def contact(head, collision):
     message = PointStamped(header=head)
     fill(message.point, collision.position)
     return message
-
-
-def collision_json(collision):
-    """String with one JSON object, in full precision."""
-    return String(data=collision_text(collision))
-
-
-def result_json(result, shot):
-    """String with one JSON object for the end of strike number `shot`, rounded for people."""
-    return String(data=result_text(result, shot))
-
-
-def rejection_json(shot, ball, velocity, spin, reason):
-    """String with one JSON object for strike number `shot`, which was not played."""
-    return String(data=rejection_text(shot, ball, velocity, spin, reason))

@@ -8,7 +8,7 @@ from ..physics import Rejected, Result
 from ..physics.engine.orientation import UPRIGHT
 from ..recording.journal import Journal
 from ..recording.json_format import state_text
-from . import conversions, log_lines
+from . import log_lines
 from .diagnostics import Diagnostics, SLOW
 from .real_time import RealTime
 
@@ -25,8 +25,8 @@ class Game:
     Parameters
     ----------
     world : World
-    publishers : Publishers
-        Publish the play.
+    listener : listener.Listener
+        Hears all that happens.
     rejected_inputs : RejectedInputs
         Warns of inputs that are rejected.
     log : rclpy.impl.rcutils_logger.RcutilsLogger
@@ -37,14 +37,14 @@ class Game:
         Notes what the play costs, and decides between shots which engine goes on.
     """
 
-    def __init__(self, world, publishers, rejected_inputs, log, given, takeover):
-        self.world, self.publishers, self.rejected_inputs, self.log = world, publishers, rejected_inputs, log
+    def __init__(self, world, listener, rejected_inputs, log, given, takeover):
+        self.world, self.listener, self.rejected_inputs, self.log = world, listener, rejected_inputs, log
         self.takeover = takeover
         self.real_time = RealTime(1.0 / given.rate, max(1, round(given.rate / given.publish_rate)),
                                   given.real_time_factor)
         self.busy = min(BUSY / given.publish_rate, LONGEST_BUSY)
         self.keeps_time = given.publish_clock
-        self.journal, self.ticks = Journal(publishers.publish_entry), 0
+        self.journal, self.ticks = Journal(listener.journal_entry), 0
         self.diagnostics = Diagnostics()
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
@@ -124,7 +124,7 @@ class Game:
             if isinstance(event, Result):
                 self.finish(event)
             else:
-                self.publishers.publish_collision(event)
+                self.listener.collision(event)
 
     def apply(self):
         """Apply the inputs that arrived, in order; the wind first, so that a shot starts in it."""
@@ -145,13 +145,12 @@ class Game:
         try:
             self.world.strike(name, velocity, spin)
         except Rejected as error:
-            self.publishers.results.publish(
-                conversions.rejection_json(self.shots, name, velocity, spin, str(error)))
+            self.listener.rejection(self.shots, name, velocity, spin, str(error))
             self.rejected_inputs.warn('shot', f'{name}: {error}')
             return
         self.numbers[self.world.shots] = self.shots
         self.journal.strike(self.ticks, self.shots, name, (velocity, spin), before)
-        self.publishers.scene.trails[name].clear()
+        self.listener.path_begins(name)
 
     def place(self, name, point):
         """Put a resting ball on the ground at the x and y of `point`."""
@@ -163,7 +162,7 @@ class Game:
             self.rejected_inputs.warn('place', f'{name}: {error}')
             return
         self.journal.note('place', self.ticks, ball=name, position=point[:2])
-        self.publishers.scene.trails[name].clear()
+        self.listener.path_begins(name)
         self.all_due = True
 
     def reset(self):
@@ -173,7 +172,7 @@ class Game:
         self.notify_events([*self.world.happened(), *aborted])
         self.turned[:] = UPRIGHT
         for name in self.world.names:
-            self.publishers.scene.trails[name].clear()
+            self.listener.path_begins(name)
         self.all_due = True
 
     def finish(self, result):
@@ -183,7 +182,7 @@ class Game:
         self.journal.rest(self.ticks, shot, result, ball)
         if result.status in ('out_of_bounds', 'water', 'failed'):
             self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
-        self.publishers.results.publish(conversions.result_json(result, shot))
+        self.listener.result(result, shot)
         if result.status == 'failed':
             self.log.error(f'shot {shot} failed, and {result.ball} is back where it was struck: '
                            f'{result.reason}')
@@ -206,20 +205,17 @@ class Game:
         scene_due = self.scene_due()
         self.notify_balls(self.all_due)
         if scene_due:
-            self.publishers.publish_scene(self.blowing)
+            self.listener.scene(self.blowing)
         if self.course_due:
-            self.publishers.publish_course()
+            self.listener.course()
         self.all_due = self.course_due = False
 
     def notify_balls(self, all_of_them=False):
         """Publish the time, and balls that move or have just stopped."""
         moving = set(self.world.in_motion)
-        self.publishers.publish_time()
         balls = {name: self.world[name]
                  for name in (self.world.names if all_of_them else moving | self.awake)}
-        self.publishers.publish_balls(balls, self.orientations)
-        for name in moving:
-            self.publishers.scene.trails[name].add(balls[name].position)
+        self.listener.balls(balls, self.orientations, moving)
         self.awake = moving
 
     def scene_due(self):
@@ -242,5 +238,5 @@ class Game:
                 f'slower than the clock: {self.diagnostics.factor:.3g} simulated seconds a second '
                 f'instead of {self.real_time.factor:g}; no tick is left out, the play is the same',
                 throttle_duration_sec=1.0)
-        self.publishers.publish_diagnosis(slow, {
+        self.listener.diagnostics(slow, {
             **self.diagnostics.values(self.world, self.real_time.lost), **self.takeover.values()})

@@ -9,7 +9,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
-from ..recording.json_format import text
+from ..recording.json_format import collision_text, rejection_text, result_text, text
 from . import conversions
 from .diagnostics import diagnostic
 from .markers.course_markers import course_markers
@@ -26,7 +26,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Publishers:
-    """Publishers of all topics of a game, and the messages on them.
+    """Publishers of all topics of a game, and the messages on them: a `listener.Listener`.
 
     Parameters
     ----------
@@ -44,20 +44,20 @@ class Publishers:
         self.began = 0 if given.publish_clock else node.get_clock().now().nanoseconds
         self.clock = node.create_publisher(Clock, '/clock', STREAM) if given.publish_clock else None
         self.next_clock = monotonic()
-        self.scene = Scene(world)
+        self.markers = Scene(world)
         self.config, self.entries_since = '', 0
         self.open_balls(on_match(on_follower))
         watch(node, [*self.poses.values(), *self.twists.values()], on_follower)
         make = node.create_publisher
-        self.collisions = make(String, 'collisions', EVENTS)
-        self.results = make(String, 'shot/result', EVENTS)
-        self.journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.publish_config))
-        self.course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
-        watch(node, [self.journal], self.publish_config)
-        watch(node, [self.course], on_viewer)
-        self.play = make(MarkerArray, 'play/markers', STREAM)
-        self.diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
-        self.heartbeat, self.session = make(String, 'heartbeat', BEAT), time_ns()
+        self.of_collisions = make(String, 'collisions', EVENTS)
+        self.of_results = make(String, 'shot/result', EVENTS)
+        self.of_journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.repeat_config))
+        self.of_course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
+        watch(node, [self.of_journal], self.repeat_config)
+        watch(node, [self.of_course], on_viewer)
+        self.of_play = make(MarkerArray, 'play/markers', STREAM)
+        self.of_diagnostics = make(DiagnosticArray, '/diagnostics', STREAM)
+        self.of_heartbeat, self.session = make(String, 'heartbeat', BEAT), time_ns()
 
     def open_balls(self, matched):
         """Create the publishers of each ball, by name."""
@@ -79,54 +79,70 @@ class Publishers:
             self.next_clock = now + CLOCK_PERIOD
             self.clock.publish(Clock(clock=self.head(self.world.time).stamp))
 
-    def publish_balls(self, balls, orientations):
-        """Publish poses and twists of `balls`, by name."""
+    def balls(self, balls, orientations, moving):
+        """Publish the time, and poses and twists of `balls`, by name."""
+        self.publish_time()
         head = self.head(self.world.time)
         for name, ball in balls.items():
             if heard(self.poses[name]):
                 self.poses[name].publish(conversions.pose(head, ball, orientations[name]))
             if heard(self.twists[name]):
                 self.twists[name].publish(conversions.twist(head, ball))
+            if name in moving:
+                self.markers.trails[name].add(ball.position)
 
-    def publish_collision(self, collision):
+    def path_begins(self, ball):
+        """Begin the ball's trail anew."""
+        self.markers.trails[ball].clear()
+
+    def collision(self, collision):
         """Publish a collision, as JSON and as a point."""
-        self.collisions.publish(conversions.collision_json(collision))
+        self.of_collisions.publish(String(data=collision_text(collision)))
         both = [collision.ball] + [collision.with_] * (collision.kind == 'ball')
         for name in both:
             if heard(self.contacts[name]):
                 self.contacts[name].publish(conversions.contact(self.head(collision.time), collision))
-        self.scene.contacts.append(collision.position)
+        self.markers.contacts.append(collision.position)
 
-    def publish_entry(self, text):
+    def result(self, result, shot):
+        """Publish the end of strike number `shot`."""
+        self.of_results.publish(String(data=result_text(result, shot)))
+
+    def rejection(self, shot, ball, velocity, spin, reason):
+        """Publish that strike number `shot` was not played, and why."""
+        self.of_results.publish(String(data=rejection_text(shot, ball, velocity, spin, reason)))
+
+    def journal_entry(self, text):
         """Publish an entry of the journal; the first one is the configuration."""
         self.config = self.config or text
         self.entries_since += 1
-        self.journal.publish(String(data=text))
+        self.of_journal.publish(String(data=text))
 
-    def publish_config(self):
+    def repeat_config(self):
         """Publish the configuration once more, unless who subscribes late gets it anyway."""
         if self.entries_since > EVENTS.depth:
             self.entries_since = 1
-            self.journal.publish(String(data=self.config))
+            self.of_journal.publish(String(data=self.config))
 
-    def publish_heartbeat(self, shots, paused):
+    def heartbeat(self, shots, paused):
         """Publish the heartbeat: number of the session, strikes received, whether time is paused."""
-        self.heartbeat.publish(String(data=text({'session': self.session, 'shots': shots, 'paused': paused})))
+        self.of_heartbeat.publish(
+            String(data=text({'session': self.session, 'shots': shots, 'paused': paused})))
 
-    def publish_scene(self, wind):
+    def scene(self, wind):
         """Publish markers of the play."""
-        if heard(self.play):
-            self.play.publish(self.scene.markers(self.head(self.world.time), self.world, wind))
+        if heard(self.of_play):
+            self.of_play.publish(self.markers.markers(self.head(self.world.time), self.world, wind))
 
-    def publish_course(self):
+    def course(self):
         """Publish markers of the course."""
-        self.course.publish(course_markers(self.world.course, self.frame))
+        self.of_course.publish(course_markers(self.world.course, self.frame))
 
-    def publish_diagnosis(self, slow, values):
+    def diagnostics(self, slow, values):
         """Publish how well the simulation keeps up."""
         now = self.node.get_clock().now().to_msg()
         name = f'{self.node.get_fully_qualified_name()}: play'
-        self.diagnostics.publish(diagnostic(now, name, slow, values))
+        self.of_diagnostics.publish(diagnostic(now, name, slow, values))
 
 
 def heard(publisher):

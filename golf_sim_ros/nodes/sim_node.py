@@ -52,10 +52,11 @@ class SimNode(Node):
         given = declared(self)
         self.world = self.new_world(given)
         self.frame, self.rejected_inputs = given.frame_id, RejectedInputs(self.get_logger())
-        publishers = Publishers(self, self.world, given, self.on_viewer, self.on_follower)
+        self.topics = Publishers(self, self.world, given, self.on_viewer, self.on_follower)
         takeover = Takeover(self.world, given.engine, self.get_logger())
-        self.game = Game(self.world, publishers, self.rejected_inputs, self.get_logger(), given, takeover)
-        self.game.journal.config(self.world, given._asdict(), publishers.began)
+        self.game = Game(self.world, self.topics, self.rejected_inputs, self.get_logger(), given,
+                         takeover)
+        self.game.journal.config(self.world, given._asdict(), self.topics.began)
         self.subscribe(given)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
@@ -201,7 +202,7 @@ class SimNode(Node):
 
     def on_heartbeat(self):
         """Publish the heartbeat; a node that hangs does not."""
-        self.game.publishers.publish_heartbeat(self.game.shots, self.game.paused)
+        self.topics.heartbeat(self.game.shots, self.game.paused)
 
     def on_beat(self):
         """Publish everything, and the diagnostics: once a second, moving or not."""

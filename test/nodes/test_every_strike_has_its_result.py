@@ -136,5 +136,5 @@ def test_a_failed_shot_is_told_logged_and_recorded_and_the_play_goes_on(monkeypa
     assert [entry['kind'] for entry in told.entries] == ['config', 'strike', 'rest', 'drop', 'strike', 'rest']
     assert 'shot 1 failed' in told.log.error.call_args.args[0]
     told.game.diagnose()
-    slow, values = told.publishers.publish_diagnosis.call_args.args
+    slow, values = told.heard.diagnosed[-1]
     assert values['balls that could not go on'] == '1' and failed['reason'] in values['last of them']

@@ -6,6 +6,7 @@ from math import inf, nan
 import pytest
 
 from golf_sim_ros.nodes import conversions, log_lines
+from golf_sim_ros.recording.json_format import collision_text, rejection_text, result_text
 from golf_sim_ros.physics import Collision, Result
 
 RESULT = Result(
@@ -14,7 +15,7 @@ RESULT = Result(
 
 
 def test_a_result_has_its_keys_in_order_and_is_rounded_for_people():
-    told = json.loads(conversions.result_json(RESULT, 9).data)
+    told = json.loads(result_text(RESULT, 9))
     assert list(told) == [
         'shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time', 'duration',
         'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time', 'position', 'velocity', 'spin',
@@ -24,16 +25,16 @@ def test_a_result_has_its_keys_in_order_and_is_rounded_for_people():
 
 
 def test_no_number_is_told_as_minus_zero():
-    assert '-0.0,' not in conversions.result_json(RESULT, 1).data
-    assert '-0.0]' not in conversions.result_json(RESULT, 1).data
+    assert '-0.0,' not in result_text(RESULT, 1)
+    assert '-0.0]' not in result_text(RESULT, 1)
 
 
 def test_without_a_hole_to_hole_is_null():
-    assert json.loads(conversions.result_json(RESULT._replace(to_hole=None), 1).data)['to_hole'] is None
+    assert json.loads(result_text(RESULT._replace(to_hole=None), 1))['to_hole'] is None
 
 
 def test_a_rejection_tells_what_was_not_finite_as_null_in_strict_json():
-    data = conversions.rejection_json(3, 'red', (nan, 1.0, -inf), (0.0, 0.0, 2.0), 'because').data
+    data = rejection_text(3, 'red', (nan, 1.0, -inf), (0.0, 0.0, 2.0), 'because')
     told = json.loads(data, parse_constant=pytest.fail)
     assert list(told) == ['shot', 'ball', 'status', 'velocity', 'spin', 'reason']
     assert told == {'shot': 3, 'ball': 'red', 'status': 'rejected', 'velocity': [None, 1.0, None],
@@ -42,7 +43,7 @@ def test_a_rejection_tells_what_was_not_finite_as_null_in_strict_json():
 
 def test_a_collision_is_told_in_full_precision():
     third = (1 / 3, 0.0, 0.0)
-    data = conversions.collision_json(Collision(0.1, 'ball', 'bounce', 'sand', *[third] * 7)).data
+    data = collision_text(Collision(0.1, 'ball', 'bounce', 'sand', *[third] * 7))
     told = json.loads(data)
     assert (told['with'], told['normal'][0], told['time']) == ('sand', 1 / 3, 0.1)
     assert 'with_' not in told

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """A `Game` without DDS, on a clock that only tests turn, and all that it publishes."""
-from collections import defaultdict
 import json
 from types import SimpleNamespace
 from unittest.mock import MagicMock
@@ -10,6 +9,7 @@ from golf_sim_ros.nodes.parameters import Parameters
 from golf_sim_ros.nodes.takeover import Takeover
 from golf_sim_ros.physics import World
 from golf_sim_ros.recording.journal import opened
+from golf_sim_ros.recording.json_format import rejection_text, result_text
 from golf_sim_ros.recording.replay import difference, rerun, shots, tick_of
 
 LOOK = 0.002  # s that pass from one look at the clock to the next
@@ -26,6 +26,40 @@ class TurnedClock:
         return self.now
 
 
+class Heard:
+    """A `Listener` that keeps what matters here."""
+
+    def __init__(self):
+        self.entries, self.results, self.collisions, self.diagnosed = [], [], [], []
+
+    def journal_entry(self, text):
+        self.entries.append({**opened(text), 'received': 0})
+
+    def collision(self, collision):
+        self.collisions.append(collision)
+
+    def result(self, result, shot):
+        self.results.append(json.loads(result_text(result, shot)))
+
+    def rejection(self, shot, ball, velocity, spin, reason):
+        self.results.append(json.loads(rejection_text(shot, ball, velocity, spin, reason)))
+
+    def path_begins(self, ball):
+        pass
+
+    def balls(self, balls, orientations, moving):
+        assert moving <= set(balls) <= set(orientations)
+
+    def scene(self, wind):
+        pass
+
+    def course(self):
+        pass
+
+    def diagnostics(self, slow, values):
+        self.diagnosed.append((slow, values))
+
+
 class ToldGame:
     """A game on `course`; `results` and `entries` are all that it published of shots and of inputs."""
 
@@ -33,16 +67,12 @@ class ToldGame:
         self.clock = TurnedClock()
         monkeypatch.setattr('golf_sim_ros.nodes.real_time.monotonic', self.clock)
         self.given = Parameters(course='', balls=balls, real_time_factor=factor, rate=rate)
-        self.world, self.entries, self.results, self.collisions = World(course, balls), [], [], []
-        self.log, self.rejected_inputs, self.publishers = MagicMock(), MagicMock(), MagicMock()
-        self.publishers.publish_entry = lambda text: self.entries.append({**opened(text), 'received': 0})
-        self.publishers.publish_collision = self.collisions.append
-        self.publishers.results.publish = lambda message: self.results.append(json.loads(message.data))
-        self.publishers.scene.trails = defaultdict(list)
+        self.world, self.heard = World(course, balls), Heard()
+        self.entries, self.results, self.collisions = (
+            self.heard.entries, self.heard.results, self.heard.collisions)
+        self.log, self.rejected_inputs = MagicMock(), MagicMock()
         takeover = Takeover(self.world, 'python', self.log)
-        self.game = Game(self.world, self.publishers, self.rejected_inputs, self.log, self.given, takeover)
-        for name in balls:
-            self.publishers.scene.trails[name] = MagicMock()
+        self.game = Game(self.world, self.heard, self.rejected_inputs, self.log, self.given, takeover)
         self.game.journal.config(self.world, self.given._asdict(), 0)
 
     def send(self, ball, velocity, spin=(0.0, 0.0, 0.0)):
