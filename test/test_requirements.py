@@ -150,7 +150,7 @@ def without(missing, source):
 
 
 @pytest.mark.parametrize('missing, source, ways', [
-    ('rosbags', 'from golf_sim_ros.bag import decoder; decoder("play")',
+    ('rosbags', 'from golf_sim_ros.recording.bag import decoder; decoder("play")',
      ["pip install 'golf_sim_ros[bag]'"]),
     ('rosbags', 'from golf_sim_ros.recording.bag_writer import BagWriter; BagWriter("play", "mcap")',
      ["pip install 'golf_sim_ros[bag]'"]),

@@ -59,7 +59,7 @@ def played(batch, strikes, progress=None):
     world = world_of(batch)
     play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    scene = world._model, world._balls, batch.gusts, world._crowd, world._log
+    scene = world._model, world._balls, batch.gusts, world._workspace, world._log
     found = [ends(play, scene, part)
              for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
     return summary(np.concatenate(found), batch.course.hole, world._materials)

@@ -15,9 +15,10 @@ from golf_sim_ros.course.package_files import share
 def run_copy(site_packages, environment=None):
     """What `share('config')` says in a copy of the package that lies in `site_packages`."""
     package = site_packages / 'golf_sim_ros'
-    package.mkdir(parents=True)
-    shutil.copy(module.__file__, package)
-    (package / '__init__.py').touch()
+    (package / 'course').mkdir(parents=True)
+    shutil.copy(module.__file__, package / 'course')
+    for folder in (package, package / 'course'):
+        (folder / '__init__.py').touch()
     code = 'from golf_sim_ros.course.package_files import share; print(share("config"))'
     return subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, cwd=site_packages,
                           env={'PATH': '', 'PYTHONPATH': str(site_packages), **(environment or {})})
