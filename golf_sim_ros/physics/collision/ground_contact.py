@@ -35,7 +35,7 @@ IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 @kernel
 def sees_one_normal(ground, part, ball, normal):
     """Whether the contact normal of a convex `part` is the same `normal` along the whole segment."""
-    # What is nearest to one face, seen along its normal, is a convex region: it contains a curve whose control
+    # The points that see one face along its normal form a convex region: it contains a curve whose control
     # points it contains.
     for i in range(6):
         _, seen = surfaces.nearest(ground, part, control_point(ball, i))
