@@ -16,7 +16,7 @@ class Polygons(NamedTuple):
 
 
 class Regions(NamedTuple):
-    """Polygons with holes: those of outline i are ``cuts`` ``first_cut[i]`` to before ``first_cut[i + 1]``."""
+    """Polygons with holes: those of outline i are cuts ``first_cut[i]`` to before ``first_cut[i + 1]``."""
 
     outlines: Polygons
     cuts: Polygons
