@@ -11,11 +11,11 @@ from ..mechanics.vector import ZERO, store, scale, load
 from . import protocol
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
-LEAST_WIND = -1
-# A step ends at the latest where height over the ground, and the profile's roughness, has grown by so much of
-# itself: what a law does on its first centimetres would be over before any stage saw it.
+LEAST_WIND = -1  # law of no wind
+# A step ends at the latest where height over the ground, plus the profile's roughness, has changed by this
+# factor of itself: the steep part of the profile near the ground would be passed before any stage saw it.
 GROWTH = 2.0
-STEEP = 0.01  # m: the roughness where a profile has none
+STEEP = 0.01  # m: the roughness of a profile that has none
 
 
 class LogProfile(NamedTuple):
@@ -48,7 +48,7 @@ class Wind(NamedTuple):
 
 @kernel
 def share(effect, height):
-    """Wind at `height` [m] over that at 10 m."""
+    """Ratio of the wind at `height` [m] to that at 10 m."""
     if effect.law == 1:
         return effect.weight * log(1.0 + max(height, 0.0) / effect.parameter)
     if effect.law == 2:
