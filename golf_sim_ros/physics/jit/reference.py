@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What kernels do that Python cannot say: records by reference, the processor's cycles."""
+"""Intrinsics of kernels without an equivalent in Python: records by reference, the processor's cycles."""
 import platform
 
 from llvmlite import ir
