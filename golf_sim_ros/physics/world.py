@@ -105,7 +105,7 @@ class World:
         self._tee_up()
 
     def _rebuild(self):
-        """Choose the effects anew and build the model for kernels."""
+        """Choose the effects again and rebuild the model for kernels."""
         self._choose()
         self._model = model_.build_model(self.course, self._records, self._preset)
 

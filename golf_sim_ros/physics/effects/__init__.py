@@ -183,7 +183,7 @@ def sinking(effects, position, velocity):
 def longest_allowed_step(effects, ground, state, force, wanted):
     """Longest step [s], `wanted` at most, that can't overlook any effect.
 
-    Of a flying ball whose `state` is position, velocity and spin, and that `force` accelerates [m/s^2].
+    For a ball in flight whose `state` is position, velocity and spin, and its acceleration `force` [m/s^2].
     """
     flow = airflow(effects, ground, *state)
     for effect in literal_unroll(effects):
@@ -200,7 +200,7 @@ def set_wind(effects, wind):
 
 @kernel
 def effective_normal(effects, normal, velocity, softness):
-    """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
+    """Effective contact normal of a ball that hits ground of `normal` and `softness` at `velocity`."""
     for effect in literal_unroll(effects):
         normal = protocol.contact_normal(effect, normal, velocity, softness)
     return normal

@@ -23,7 +23,7 @@ from . import GENERICS, Unavailable, cache
 COMPILING, LOADING, READY, BUILD_FAILED = 'compiling', 'loading', 'ready', 'failed'
 ORDINARY_LINKING = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
 PROGRAM = 'golf_sim_ros.physics.jit.build'
-LOW = 10  # niceness of a child for which nobody waits: a tenth of what others get, but never nothing
+LOW = 10  # niceness of a child that is not urgent: a tenth of the time of others, but never none
 INSTALL = "pip install numba, in a virtual environment made with 'python3 -m venv --system-site-packages'"
 
 
@@ -55,7 +55,7 @@ class Job(NamedTuple):
 class Build:
     """Compiled code on its way: a child compiles what `parts` need, then this process loads it.
 
-    It begins at once, in a thread; the child has a low priority, unless it is `urgent`: somebody waits.
+    It starts at once, in a thread; the child has a low priority, unless it is `urgent`.
     `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the share of the compilation that is
     done, `reason` one line that says why it failed.
     """

@@ -28,7 +28,7 @@ class _InPlace(LOCATOR):
     """Locator of the folder as it is."""
 
     def ensure_cache_path(self):
-        """Let it be: numba would try to write there."""
+        """Leave the folder alone: numba would try to write there."""
 
 
 class _Found(caching.CompileResultCacheImpl):

@@ -68,7 +68,7 @@ def shapes(course):
 def build_model(course, records, preset):
     """`Model` of `course` with effect `records` and an accuracy `preset`.
 
-    Types are cast here, once: a kernel would compile anew for an int in place of a float.
+    Types are cast here, once: a kernel would be recompiled for an int in place of a float.
     """
     on_land = speaking(records, protocol.gravity, protocol.contact_normal)
     land = GroundScene(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
