@@ -99,7 +99,7 @@ def time_of_impact_of_balls(a, b, bend, radius, begin, until):
         if gap <= TOUCH:
             if rate < -TANGENTIAL or now > begin and rate <= 0.0:
                 return now, True
-            if rate <= TANGENTIAL:
+            if rate <= TANGENTIAL:  # the parabola says nothing here: rounding has either sign
                 now = separation_time_of_balls(a, b, radius, now, until)
                 if now == begin:
                     return now, True
@@ -117,6 +117,7 @@ def is_left_to_time_stepping(ball, other, radius, now):
     """Whether the contact of a time-stepped ball with another ball is left to time stepping."""
     if not ball['time_stepping']:
         return False
+    # One that has only just joined is in no contact of the solver before its first time step.
     if ball['time_stepping'] == STEPPED and other['time_stepping'] == STEPPED:
         return True
     gap, rate, _ = gap_between(ball, other, radius, now)
@@ -194,6 +195,7 @@ def first_ball_impact(work, balls, i, radius, now):
     while is_long(low, high, SHORT_BOX * radius) and is_over_many_stepped(work, balls, low, high):
         until = now + 0.5 * (until - now)
         low, high = swept_box(ball, 0.0, until - now, radius)
+    # Found once for all pairs: of each other ball only its deviation from that acceleration is needed.
     usual, stray = acceleration_at_start(ball)
     here = position_at(ball, now), velocity_at(ball, now)
     best = until
@@ -211,6 +213,7 @@ def first_ball_impact(work, balls, i, radius, now):
             bend = stray + acceleration_deviation(other, usual)
             if last >= now and not cannot_touch(here, other, bend, radius, now, last):
                 time, touches = time_of_impact_of_balls(ball, other, bend, radius, now, last)
+                # At equal times an impact has precedence over a safe time.
                 if touches and (time < best or not hit) or time < last:
                     best = time
                     who = j

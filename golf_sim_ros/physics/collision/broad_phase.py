@@ -60,6 +60,7 @@ def leaf_serves(ball, node, radius):
     """Whether the fat box of a time-stepped ball still contains its segment, and is not far too large."""
     if ball['time_stepping'] != STEPPED:
         return False
+    # Neither too small, which would miss contacts, nor so large that queries find balls far away.
     low, high = segment_box(ball, radius, 0.0)
     for k in range(3):
         if not (0.0 <= low[k] - node['low'][k] <= 3.0 * LEAF_MARGIN
@@ -91,7 +92,7 @@ def rebuild(work, balls, radius):
     for i in range(len(work.nodes)):
         node = work.nodes[i]
         n = node['count']
-        node['skip'] = i + 2 * n - 1
+        node['skip'] = i + 2 * n - 1  # a subtree of n leaves has 2 n - 1 nodes
         node['ball'] = -1
         if n == 1:
             number = work.order[node['first']]
@@ -162,6 +163,7 @@ def _note(work, balls, i, radius):
 @shared
 def update_leaf(work, balls, i, radius):
     """Update the tree for ball `i`'s new segment. Writes nodes, or all of the tree if it is rebuilt."""
+    # A pile moves so little that most of its segments change nothing in the tree.
     leaf = work.leaves[i]
     if leaf_serves(balls[i], work.nodes[leaf], radius):
         return

@@ -18,7 +18,7 @@ def first_water_entry(waters, ball, until):
     who = 0
     lowest, _ = extent_along(ball, 2)
     for i in range(len(waters.levels)):
-        if lowest < waters.levels[i]:
+        if lowest < waters.levels[i]:  # else its control points, and so the curve, are above
             time, dips = water_entry_time(waters, i, ball, best)
             if dips:
                 best = time

@@ -71,7 +71,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: where nothing has leaves."""
+    """Reason why `scene` does without the effect, no leaves, or ''."""
     return '' if leafy(scene.course) else 'no leaves'
 
 

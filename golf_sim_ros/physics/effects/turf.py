@@ -75,7 +75,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: where all ground is hard."""
+    """Reason why `scene` does without the effect, hard ground, or ''."""
     soft = any(shape.material.softness > 0 for shape in scene.course.ground)
     return '' if soft else 'all ground is hard'
 

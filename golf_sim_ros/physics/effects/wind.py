@@ -19,19 +19,19 @@ STEEP = 0.01  # m: the roughness of a profile that has none
 
 
 class LogProfile(NamedTuple):
-    """u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0), z0 the `roughness` length [m]."""
+    """Logarithmic profile u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0), z0 the `roughness` length [m]."""
 
     roughness: float = 0.01
 
 
 class PowerProfile(NamedTuple):
-    """u = u10 (h / 10 m)^`exponent`."""
+    """Power law u = u10 (h / 10 m)^`exponent`."""
 
     exponent: float = 0.14
 
 
 class UniformProfile(NamedTuple):
-    """The same wind at every height."""
+    """Uniform profile: the same wind at every height."""
 
 
 class Wind(NamedTuple):
@@ -100,7 +100,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: in still air."""
+    """Reason why `scene` does without the effect, still air, or ''."""
     return '' if any(scene.wind) else 'no wind'
 
 

@@ -131,12 +131,13 @@ def end_if_over(model, ball, number, now, log):
         ball['phase'] = OUT
     elif has_ended_in_water(model.land, ball):
         sink(ball)
-    elif before == REST and is_in_hole(model, ball):
+    elif before == REST and is_in_hole(model, ball):  # no speed of capture: it is holed once it rests there
         ball['phase'] = HOLED
     if is_out(model.land.ground, ball, model.land.ball.radius):
         ball['phase'] = OUT
     if ball['phase'] == OUT and before != OUT:
         log_out_of_bounds(ball, number, now, log)
+    # A ball set off by another has no shot and so no result: only its loss is logged.
     is_lost = ball['phase'] == OUT or ball['phase'] == WATER
     if is_lost and ball['moved_by_ball'] and not ball['shot_active']:
         ball['moved_by_ball'] = 0
@@ -257,6 +258,7 @@ def play_all(model, ball, strikes, gusts, work, log):
         gust = 1
         while one[0]['shot_active']:
             log.count[:] = 0
+            # After the last gust up to a time by which every shot has ended.
             until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
             if run_events(model, one, until, work, log) == DONE and gust < len(gusts):
                 set_wind(model.effects, load(gusts[gust, 1:4]))

@@ -132,6 +132,7 @@ def collect_ground_contacts(land, ball, i, work, begin):
 
     The ball's own contacts start at row `begin`.
     """
+    # One contact for each normal: coplanar parts, and faces that share the touched edge, count once.
     ground = land.ground
     place = load(ball['position'])
     if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(work, begin, load(ball['normal'])):
