@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Many shots, each from the tee: which engine plays them, and their ends."""
+"""Batch of shots, each from the tee: the choice of the engine, and their results."""
 from typing import NamedTuple
 
 import numpy as np
@@ -15,14 +15,14 @@ from .state.ball import ENDED
 from .trajectory.shot_record import NOT_FINITE, fail, copy_result, begin_shot
 from .world import World
 
-PART = 5000  # shots between two looks at the progress
+PART = 5000  # shots between two updates of the progress
 FEW_SHOTS, MANY_SHOTS = 20, 200  # plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute
 SHORT_WAIT = 5.0  # s: loading is over by then
 ANY_SHOT = np.array([[1.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
 
 
 class Batch(NamedTuple):
-    """What many shots have in common; `engine`: 'python' or 'compiled'."""
+    """Common input of many shots; `engine`: 'python' or 'compiled'."""
 
     course: Course
     gusts: np.ndarray
@@ -32,7 +32,7 @@ class Batch(NamedTuple):
 
 
 def batch_engine(batch, shots):
-    """The engine that pays for so many `shots`; the compiled one is loaded then."""
+    """Engine that pays for so many `shots`; the compiled one has been loaded then."""
     if shots < FEW_SHOTS:
         return 'python'
     program = Program.of(f'batch {world_of(batch).types}')
@@ -49,13 +49,13 @@ def batch_engine(batch, shots):
 
 
 def world_of(batch):
-    """`World` of a batch. The strongest gust decides whether there is wind at all."""
+    """`World` of a batch. The strongest gust decides whether wind is simulated."""
     wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
     return World(batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=wind, engine='python')
 
 
 def played(batch, strikes, progress=None):
-    """Ends of the `strikes` of a batch; what is off stays off, so nothing dormant is compiled in."""
+    """Results of the `strikes` of a batch; effects stay off, so no dormant record is compiled in."""
     world = world_of(batch)
     play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
@@ -66,13 +66,13 @@ def played(batch, strikes, progress=None):
 
 
 def ends(play, scene, strikes):
-    """Ends of `strikes`, an `ENDED` array. Where plain Python refuses to calculate, that shot has failed."""
+    """Ends of `strikes`, an `ENDED` array. A shot for which plain Python raises an arithmetic error fails."""
     model, balls, gusts, work, log = scene
     try:
         with np.errstate(all='ignore'):
             return play(model, balls, strikes, gusts, work, log)
     except (ArithmeticError, ValueError):
-        clear_set(work)
+        clear_set(work)  # bisection finds the shot
         if len(strikes) > 1:
             return np.concatenate([ends(play, scene, part) for part in np.array_split(strikes, 2)])
     ball, end = balls[0].copy(), np.empty(1, ENDED)
@@ -84,7 +84,7 @@ def ends(play, scene, strikes):
 
 
 def progress_bar(parts, total):
-    """`parts` with a bar on a terminal, from two seconds on, if tqdm is installed."""
+    """Iterable of `parts` with a progress bar on a terminal, from two seconds on, if tqdm is installed."""
     try:
         from tqdm import tqdm
     except ImportError:

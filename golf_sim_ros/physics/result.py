@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a world reports: collisions, and a result for every shot."""
+"""Reports of a world: collisions, and a result for every shot."""
 from math import hypot, isfinite
 from typing import NamedTuple, Optional
 
@@ -11,7 +11,7 @@ from .trajectory.shot_record import SUSTAINED_WORK, TOO_MUCH_WORK, MOST_WORK, NO
 
 
 class Collision(NamedTuple):
-    """An impact of more than 0.1 m/s approach; SI units, the course's frame.
+    """Impact of more than 0.1 m/s approach; SI units, the course's frame.
 
     ``kind`` is one of `COLLISION_KINDS`, ``with_`` the name of a material or a ball, ``normal`` points out of
     what was hit and ``impulse`` [N s] acted on ``ball``.
@@ -31,7 +31,7 @@ class Collision(NamedTuple):
 
 
 class Result(NamedTuple):
-    """How a shot ended; SI units.
+    """Result of a shot; SI units.
 
     ``carry`` and ``total``: horizontal distance from the strike to the first contact and to the
     end; ``carry_side``, ``side``: the same points' distance from the vertical plane of the launch,
@@ -67,8 +67,8 @@ class Result(NamedTuple):
     penalty: int = 0
 
 
-COSTS = ('water', 'out_of_bounds')  # a stroke: Rules of Golf 17.1d and 18.2b
-COLLISION_KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # of collisions, by ground.laws.sort
+COSTS = ('water', 'out_of_bounds')  # statuses that cost a stroke: Rules of Golf 17.1d and 18.2b
+COLLISION_KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')  # by surface_protocol.sort of what is hit
 STATUS = {Phase.REST: 'at_rest', Phase.HOLED: 'holed', Phase.WATER: 'water', Phase.OUT: 'out_of_bounds',
           Phase.FAILED: 'failed'}
 FAULTS = {NOT_FINITE: 'its motion was not a number any more',
@@ -85,12 +85,12 @@ SUMMARY = np.dtype([
 
 
 def three(row):
-    """Array of three as a tuple of floats."""
+    """Tuple of floats from an array of three."""
     return tuple(row.tolist())
 
 
 def summary(balls, hole, lies):
-    """Figures of ended shots, a structured array with the fields of `Result`.
+    """Results of ended shots, a structured array with the fields of `Result`.
 
     `balls` is an array of `BALL` or `ENDED` records, `lies` the materials' names. Without a hole ``to_hole``
     is not a number.
@@ -119,7 +119,7 @@ def summary(balls, hole, lies):
 
 
 def way(balls, end):
-    """Horizontal distance from the strike to `end`, and how far left of the launch plane that is."""
+    """Horizontal distance from the strike to `end`, and its distance from the launch plane, left positive."""
     dx = balls[end][:, 0] - balls['struck_at'][:, 0]
     dy = balls[end][:, 1] - balls['struck_at'][:, 1]
     heading = np.arctan2(balls['launch'][:, 1], balls['launch'][:, 0])  # 0 if launched upright
@@ -135,7 +135,7 @@ def result(ball, name, time, hole, lies):
 
 
 def failure(ball):
-    """Why the shot of a `ball` record failed, or ''."""
+    """Reason why the shot of a `ball` record failed, or ''."""
     if ball['phase'] != Phase.FAILED:
         return ''
     return FAULTS[int(ball['failed'])] + f', {ball["ended"] - ball["struck"]:.9g} s after the strike'
@@ -146,7 +146,7 @@ MOST_SPIN = 2500.0  # rad/s
 
 
 def objection(velocity, spin):
-    """Why a strike can't be taken, or ''."""
+    """Reason why a strike is rejected, or ''."""
     if not all(isfinite(x) for x in (*velocity, *spin)):
         return 'velocity or spin is not finite'
     if not any((*velocity, *spin)):
@@ -159,7 +159,7 @@ def objection(velocity, spin):
 
 
 def suspects(velocities, spins):
-    """Which of the strikes, rows of both (n, 3), `objection` may have something against: a fast look."""
+    """Mask of the strikes, rows of both (n, 3), that `objection` may reject: a fast, vectorised test."""
     size = np.stack((np.einsum('ij,ij->i', velocities, velocities), np.einsum('ij,ij->i', spins, spins)))
     most = 0.999 * np.array([[MOST_SPEED * MOST_SPEED], [MOST_SPIN * MOST_SPIN]])
     return ~((size <= most).all(0) & (size > 0.0).any(0))

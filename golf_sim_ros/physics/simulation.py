@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Shots from strike to rest: one with its path, or many with their figures."""
+"""Simulation of shots from strike to rest: one with its path, or many with their results."""
 from concurrent.futures import BrokenExecutor, CancelledError
 from functools import partial
 from typing import NamedTuple
@@ -16,7 +16,7 @@ from .world import World, checked_wind
 
 
 class Play(NamedTuple):
-    """A shot with its path: `times` (n,) [s], the others (n, 3) in SI units; the last row is the end."""
+    """Shot with its path: `times` (n,) [s], the others (n, 3) in SI units; the last row is the end."""
 
     result: Result
     collisions: tuple
@@ -71,7 +71,7 @@ def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=
 
 
 def _blown(world, until, gusts):
-    """Let a world go on to the time `until`, through the `gusts` on the way; return what happened."""
+    """Advance a world to the time `until`, through the `gusts` on the way; its events."""
     events = []
     for time, *wind in gusts[(gusts[:, 0] > world.time) & (gusts[:, 0] <= until)]:
         events += world.advance(time - world.time)
@@ -80,7 +80,7 @@ def _blown(world, until, gusts):
 
 
 def checked_gusts(wind):
-    """`wind`, three numbers or a table of gusts, as a table: rows of time, x, y, z."""
+    """Table of gusts, rows of time, x, y, z, from `wind`, three numbers or such a table; else ValueError."""
     table = np.ascontiguousarray(wind, float)
     if table.shape == (3,):
         table = np.array([[0.0, *table]])
@@ -144,7 +144,7 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
 
 
 def checked_strikes(velocities, spins):
-    """Velocities and spins side by side, (n, 6); every one can be played."""
+    """Velocities and spins side by side, (n, 6); ValueError where a shot can't be played."""
     velocities, spins = np.asarray(velocities, float), np.asarray(spins, float)
     if velocities.ndim != 2 or velocities.shape[1] != 3 or spins.shape != velocities.shape:
         raise ValueError(f'velocities {velocities.shape} and spins {spins.shape} must both be (n, 3)')
@@ -156,12 +156,12 @@ def checked_strikes(velocities, spins):
 
 
 def check_hole(course):
-    """Raise ValueError where the ground around the course's hole can't have one."""
+    """Check that the ground around the course's hole can have one; ValueError where it can't."""
     kernel_model.ground(course)
 
 
 def ground_height(course, x, y):
-    """Height [m] and material's name of the highest ground at `x`, `y`, or None where there is none."""
+    """Height [m] and name of the material of the highest ground at `x`, `y`; None where there is none."""
     z, part, number = surfaces.look_down(kernel_model.bare_ground(course), x, y)
     if part < 0:
         return None

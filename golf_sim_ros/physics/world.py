@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A course with balls on it, in time."""
+"""World: a course with balls on it, in time."""
 from functools import partial
 import re
 from math import atan2, cos, hypot, inf, isfinite, pi, sin
@@ -27,8 +27,8 @@ from .trajectory.shot_record import NOT_FINITE, fail, begin_shot
 
 APART = 0.5  # m between balls on the tee
 CLEAR = 2.2  # radii from centre to centre, of a ball that is dropped beside another
-FARTHEST = 1e6  # m: as in course files
-FALL = 1e4  # m: how far down ground is looked for
+FARTHEST = 1e6  # m: the same limit as in course files
+FALL = 1e4  # m: how far down ground is searched
 RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
 PHASES = tuple(Phase)
 MOST_WIND = 100.0  # m/s
@@ -38,15 +38,15 @@ GONE_FOR = {HOLED: 'holed' + PLACE_ANEW, OUT: 'out of bounds' + PLACE_ANEW,
 
 
 class Rejected(ValueError):
-    """A strike that can't be taken; the message says why."""
+    """Strike that is rejected; the message says why."""
 
 
 class NoPlace(ValueError):
-    """A ball can't be put there; the message says why."""
+    """Place where a ball can't be put; the message says why."""
 
 
 class BallState(NamedTuple):
-    """A ball at the world's time: SI units, course frame; `lie` is the material under it."""
+    """State of a ball at the world's time: SI units, course frame; `lie` is the material under it."""
 
     position: tuple
     velocity: tuple
@@ -93,7 +93,7 @@ class World:
         self.failures, self.last_failure = 0, ''  # of balls that could not go on: how many, and why
         self.shots = 0  # strikes that were taken; each is the number of its `Result`
         self._pegs = {}  # where each ball was teed, by number
-        self._lost = []  # numbers of balls that are put back when the time asked for has passed
+        self._lost = []  # numbers of lost balls, which are dropped at the end of a call of the engine
         self._balls = np.zeros(len(self.names), BALL)
         engine = checked_engine(engine)
         self._engine = compiled_engine() if engine == 'compiled' else PYTHON
@@ -105,19 +105,19 @@ class World:
         self._tee_up()
 
     def _rebuild(self):
-        """Choose the effects anew and build the model for kernels."""
+        """Choose the effects again and rebuild the model for kernels."""
         self._choose()
         self._model = model_.build_model(self.course, self._records, self._preset)
 
     def _choose(self):
-        """Choose the effects, and the records that the engine gets of them."""
+        """Choose the effects, and the records of them for the engine."""
         self._scene = Scene(self.course, len(self.names), self._wind)
         self._chosen = choose(self._asked, self._scene)
         keeps_dormant = self._engine.keeps_dormant
         self._records = self._chosen.with_dormant(self._scene) if keeps_dormant else self._chosen.records
 
     def _tee_up(self):
-        """Put all balls side by side on the tee, where pegs hold them until they are struck or hit."""
+        """Tee up all balls side by side, on pegs that hold them until they are struck or hit."""
         self._balls['phase'], self._balls['end'] = HOLED, inf  # nowhere, until they are there
         self._balls['strokes'] = 0
         apart = max(APART, CLEAR * self.course.ball.radius)
@@ -131,17 +131,17 @@ class World:
 
     @property
     def effects_on(self):
-        """Names of the effects that are simulated now."""
+        """Names of the effects that are simulated at present."""
         return tuple(self._chosen.on)
 
     @property
     def effects_off(self):
-        """Reasons of the effects that are not simulated now, by name."""
+        """Reasons, by name, of the effects that are not simulated at present."""
         return self._chosen.off
 
     @property
     def effects_needless(self):
-        """Reasons of the effects that were asked for by name and that this scene can't have, by name."""
+        """Reasons, by name, of the effects that were asked for and that this scene can't have."""
         return self._chosen.needless
 
     @property
@@ -156,12 +156,12 @@ class World:
         self._begin_new_segments()
 
     def measure(self):
-        """Keep account from now on of where the engine's time goes; see `spent`."""
+        """Start to measure where the engine's time goes; see `spent`."""
         self._workspace = self._workspace._replace(spent=np.zeros(len(STAGES), np.int64))
 
     @property
     def spent(self):
-        """Processor's cycles that the engine has spent since `measure`, by stage; `cycles()` counts all."""
+        """Processor's cycles that the engine has spent since `measure`, by stage; see `cycles_now`."""
         return dict(zip(STAGES, self._workspace.spent.tolist()))
 
     @property
@@ -177,7 +177,7 @@ class World:
 
     @property
     def engine(self):
-        """What runs the physics now: 'python' or 'compiled'; may be set, also while balls move.
+        """Engine that runs the physics: 'python' or 'compiled'; may be set, also while balls move.
 
         Setting 'compiled' loads what is needed, or compiles it in this process: up to a minute; see `build`.
         """
@@ -192,12 +192,12 @@ class World:
 
     @property
     def program(self):
-        """What decides which machine code the compiled engine needs: the types of the records."""
+        """Key of the machine code that the compiled engine needs: the types of the records."""
         return self._types(self._chosen.with_dormant(self._scene))
 
     @property
     def types(self):
-        """Names of the types of the records that run now, which decide what machine code they need."""
+        """Names of the types of the present records, which decide what machine code they need."""
         return self._types(self._records)
 
     def _types(self, records):
@@ -205,23 +205,23 @@ class World:
         return ' '.join(f'{kind.__module__}.{kind.__qualname__}' for kind in types)
 
     def build(self, urgent=False):
-        """The compiled engine on its way, begun now if nobody has: a `jit.build.Build`; see there."""
+        """`jit.build.Build` of the compiled engine, started now unless it has been before."""
         return Program.of(self.program).built(urgent, *self.part[1:])
 
     @property
     def part(self):
-        """What a `jit.build.Build` has to know of the program of this world's compiled engine."""
+        """Program of this world's compiled engine, for a `jit.build.Build`."""
         return Part(self.program, exercise, (self.course, self.names, self._asked, self._preset))
 
     def _take_over(self):
-        """Go on with the compiled engine, if that is ready; let it be built, if it is worth it."""
+        """Switch to the compiled engine if it is ready; start its build if that pays."""
         if self._program.is_ready:
             self.engine = 'compiled'
         elif self._program.build is None and self._program.is_worth_compiling():
             self.build()
 
     def __getitem__(self, name):
-        """Return the `BallState` of the ball called `name`."""
+        """`BallState` of the ball called `name`."""
         ball = self._ball(name)
         return BallState(three(ball['position']), three(ball['velocity']), three(ball['spin']),
                          PHASES[ball['phase']], self._lie(ball))
@@ -270,7 +270,7 @@ class World:
         self._set_off(ball, velocity, spin)
 
     def _put(self, number, position):
-        """Put the ball of that number down, at rest, where it is free."""
+        """Put a ball down, at rest; `NoPlace` where it is not free."""
         ball = self._balls[number]
         trial = ball.copy()
         self._put_down(trial, position)
@@ -289,7 +289,7 @@ class World:
         ball['struck'], ball['struck_at'] = self._now, ball['position']
 
     def _let_lean_no_more(self, number):
-        """Let the balls set off that lean on one at rest: it is taken away."""
+        """Wake the balls that sleep on a ball which is taken away."""
         balls = self._balls
         apart = np.linalg.norm(balls['position'] - balls['position'][number], axis=1)
         leaning = (balls['phase'] == REST) & (balls['sleeps_on_ball'] != 0) & (
@@ -352,16 +352,16 @@ class World:
         self._let_happen(self._now)
 
     def _settle_clock(self):
-        """Start the clock of paths anew when nothing moves: same strikes give the same bits."""
+        """Reset the engine's clock to zero when nothing moves: the same strikes give the same bits."""
         if not self.moving:
             if self._program:
                 self._take_over()
             self._now = 0.0
-            # where balls are near each other is found out anew
+            # The tree is rebuilt, or its shape would depend on the play before.
             self._workspace.count[TREE_AGE] = len(self.names)
 
     def set_wind(self, wind):
-        """Let the air move with `wind` [m/s] at 10 m over the ground from now on.
+        """Set the wind [m/s] at 10 m over the ground from now on.
 
         Raises
         ------
@@ -377,14 +377,14 @@ class World:
         self._begin_new_segments()
 
     def _begin_new_segments(self):
-        """End the segments of flight now: the surroundings have changed."""
+        """End the segments of balls in flight now, since their surroundings have changed."""
         flying = self._balls['phase'] == FLIGHT
         self._balls['end'][flying] = self._now
         self._balls['ending'][flying] = STEP_END
         self._balls['last_stage_time'][flying] = -1.0
 
     def advance(self, dt):
-        """Let `dt` seconds pass.
+        """Advance the world by `dt` seconds.
 
         Returns
         -------
@@ -397,7 +397,7 @@ class World:
         return self.happened()
 
     def happened(self):
-        """Take what a strike, a place or a reset has let happen at once; else `advance` returns it first.
+        """Take the events of a strike, a placement or a reset; else the next `advance` returns them first.
 
         A ball that is struck too weakly to move ends its shot within the strike.
 
@@ -409,7 +409,7 @@ class World:
         return events
 
     def _let_happen(self, until):
-        """Run the engine up to `until` on the paths' clock, and keep what it tells."""
+        """Run the engine up to `until` on its own clock, and keep the events that it logs."""
         if self._balls['end'].min() == inf:  # nothing will ever end: all balls rest
             return
         start = self.time - self._now
@@ -425,9 +425,9 @@ class World:
             self._lost.clear()
 
     def _run(self, until):
-        """Run the engine; where plain Python refuses to calculate, the balls at hand have failed.
+        """Run the engine; where plain Python raises an arithmetic error, the involved balls fail.
 
-        Compiled code goes on with what is not a number, and finds it.
+        Compiled code goes on with what is not a number, and finds it at the segment's end.
         """
         run = self._engine.advance
         if self._program:
@@ -443,7 +443,7 @@ class World:
         return LOG_FULL
 
     def _fail(self, numbers, now):
-        """Let the balls of these `numbers` that move, the first one at least, have failed."""
+        """Fail the balls of these `numbers` that move, the first one at least."""
         for number in numbers:
             ball = self._balls[number]
             if number == numbers[0] or moves(ball['phase']):
@@ -454,7 +454,7 @@ class World:
         self._workspace.count[TREE_AGE] = len(self.names)
 
     def _told(self, start):
-        """Reports of the logged events; `start` is the world's time at the paths' zero."""
+        """Reports of the logged events; `start` is the world's time at the zero of the engine's clock."""
         events = []
         for time, number, kind, other, sort, *vectors in plain_rows(self._log.events[:self._log.count[0]]):
             ball, name = self._balls[number], self.names[number]
@@ -481,9 +481,9 @@ class World:
         return ('out_of_bounds' if kind == WENT_OUT else COLLISION_KINDS[sort]), lie
 
     def _drop(self, number, now):
-        """Put a lost ball back where it was struck, or beside a ball that lies there by `now`.
+        """Drop a lost ball where it was struck, or beside a ball that lies there by `now`.
 
-        What moves begins new segments, or it would not see the ball in its way; piles look often enough.
+        Moving balls begin new segments, or they would miss the ball in their way; time steps end soon anyway.
         """
         ball = self._balls[number]
         self._workspace.count[TREE_AGE] = len(self.names)  # where it was is not where it will be
@@ -505,7 +505,7 @@ class World:
         self._balls['end'][moving], self._balls['ending'][moving] = now, STEP_END
 
     def _is_free(self, number, place):
-        """Whether no ball but that of `number` lies so near to `place` that the two would overlap."""
+        """Whether a ball at `place` overlaps no ball but that of `number`."""
         if 'ball_ball' not in self.effects_on:
             return True
         others = np.delete(self._balls, number)
@@ -514,16 +514,16 @@ class World:
         return not (apart < 2.0 * self._model.land.ball.radius - surfaces.SAME_HEIGHT).any()
 
     def state(self, written=plain):
-        """All that decides how the play goes on, as numbers, text, lists and dicts; see `restore`.
+        """State of the world, all that decides how the play goes on, as plain data; see `restore`.
 
-        `written` makes what stands for a ball out of its `BALL` record.
+        `written` serialises a `BALL` record.
         """
         balls = {name: written(ball) for name, ball in zip(self.names, self._balls)}
         return {'time': self.time, 'clock': self._now, 'engine': self.engine, 'accuracy': self.accuracy,
                 'wind': list(self._wind), 'balls': balls}
 
     def restore(self, state):
-        """Go on as a world on the same course, with the same effects, did from its `state`.
+        """Restore the `state` of a world on the same course, with the same effects, and go on from there.
 
         To the bit, if the engine is the same; it stays as it is.
 
@@ -537,7 +537,7 @@ class World:
         self.set_wind(state['wind'])
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
-        self._workspace.count[TREE_AGE] = len(self.names)  # where balls are near each other is found out anew
+        self._workspace.count[TREE_AGE] = len(self.names)  # the tree is rebuilt
 
     def reset(self):
         """Put all balls back to the start.
@@ -563,7 +563,7 @@ class World:
 
 
 def lowered(put_down, model, ball, place):
-    """Place of a `ball` record that comes down on the ground of `model` at a place, x, y. Writes the ball."""
+    """Position of a `ball` record that is lowered onto the ground of `model` at x, y. Writes the ball."""
     x, y = place
     ground, radius = model.land.ground, model.land.ball.radius
     for room in (3 * radius, 30 * radius, 300 * radius):  # over a steep plane a ball touches higher up
@@ -575,7 +575,7 @@ def lowered(put_down, model, ball, place):
 
 
 def unfit(tee, names, number, reason):
-    """Why the ball of that number can't be teed up: with others, it is they that do not fit there."""
+    """Reason why the ball of that number can't be teed up, alone or beside others."""
     if len(names) == 1:
         return f'tee {list(tee)} must be where a ball can lie: {reason}'
     return (f'balls {", ".join(names)} do not fit beside each other at the tee {list(tee)}: '
@@ -583,12 +583,12 @@ def unfit(tee, names, number, reason):
 
 
 def check_tee(course):
-    """Raise `NoPlace` where a ball can't lie on the course's tee, whatever its effects are worth."""
+    """Check that a ball can lie on the course's tee, whatever its effects; `NoPlace` where it can't."""
     World(course._replace(effects='auto'), engine='python')
 
 
 def spots(place, radius):
-    """Where a dropped ball is put: its `place`, or the first spot around it that is free.
+    """Candidate spots for a dropped ball: its `place`, then rings around it.
 
     Yields x, y, z, and how far above and below that ground may lie.
     """
@@ -602,7 +602,7 @@ def spots(place, radius):
 
 
 def checked_names(balls):
-    """Names of `balls`, a number or a sequence of names."""
+    """Names of `balls`, a number or a sequence of names; ValueError where one is not allowed."""
     names = tuple(f'ball_{i}' for i in range(balls)) if isinstance(balls, int) else tuple(balls)
     for name in names:
         if not re.fullmatch('[a-z][a-z0-9_]*', name) or name in RESERVED:
@@ -614,7 +614,7 @@ def checked_names(balls):
 
 
 def checked_wind(wind):
-    """`wind` as three floats."""
+    """Tuple of three floats of `wind`; ValueError where it is not finite or too strong."""
     wind = tuple(map(float, wind))
     if len(wind) != 3 or not all(map(isfinite, wind)):
         raise ValueError(f'wind {wind} is not three finite numbers')
@@ -624,7 +624,7 @@ def checked_wind(wind):
 
 
 def exercise(course, names, effects, accuracy):
-    """Run all that a play of the compiled engine can need: it is compiled then, or loaded from the cache."""
+    """Run all that a play of the compiled engine may need, which compiles it or loads it from the cache."""
     world = World(course, names, effects, accuracy, engine='compiled')
     world.strike(names[0], (1.0, 0.0, 1.0))
     world.advance(0.0)

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When things touch: time of impact along segments, with the ground, water and other balls."""
+"""Collision detection: broad phase, and time of impact of segments with ground, water and balls."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When two balls touch: the gap between them is convex in their relative position, as with ground."""
+"""Time of impact of two balls: their gap is convex in their relative position, as with ground."""
 from math import sqrt
 
 from ..jit import kernel, shared
@@ -13,13 +13,13 @@ from .conservative_advancement import (MOST_ADVANCES, SHORT_BOX, TANGENTIAL, TOU
 from .ground_contact import RESTING_GAP
 from .workspace import MultiBallWorkspace
 
-MANY_STEPPED = 6  # balls: so many in the box around a stretch of path are worth a shorter stretch
-RESTING_APPROACH = 0.02  # m/s of approach: so much gravity gives in a time step
+MANY_STEPPED = 6  # time-stepped balls in a swept box that make it worth halving the segment
+RESTING_APPROACH = 0.02  # m/s of approach: what gravity gives in a time step
 
 
 @kernel
 def position_at(ball, now):
-    """Where the ball is at `now`, on its present segment."""
+    """Position of the ball at `now`, on its present segment."""
     return segment.position(ball, now - ball['begin']) if moves(ball['phase']) else load(ball['position'])
 
 
@@ -31,7 +31,7 @@ def velocity_at(ball, now):
 
 @kernel
 def gap_between(a, b, radius, now):
-    """Gap between two balls at `now`, its rate, and the direction from `b` to `a`."""
+    """Gap between two balls at `now`, its rate, and the contact normal from `b` to `a`."""
     apart = sub(position_at(a, now), position_at(b, now))
     normal = unit(apart, UP)
     rate = dot(normal, sub(velocity_at(a, now), velocity_at(b, now)))
@@ -40,14 +40,14 @@ def gap_between(a, b, radius, now):
 
 @kernel
 def acceleration_at_start(ball):
-    """Acceleration as the ball's segment begins, and how far it strays from that, at most."""
+    """Acceleration at the start of the ball's segment, and a bound on how far it deviates from that."""
     usual = segment.acceleration_coefficient(ball, 0) if moves(ball['phase']) else ZERO
     return usual, acceleration_deviation(ball, usual)
 
 
 @kernel
 def acceleration_deviation(ball, acceleration):
-    """How far the ball's acceleration on its segment is from another, at most."""
+    """Bound on the difference of the ball's acceleration, over its segment, from another `acceleration`."""
     if not moves(ball['phase']):
         return length(acceleration)
     most = 0.0
@@ -59,10 +59,10 @@ def acceleration_deviation(ball, acceleration):
 
 @kernel
 def cannot_touch(here, other, bend, radius, now, until):
-    """Whether a ball whose place and velocity are `here` can't touch another one from `now` to `until`.
+    """Whether a ball whose position and velocity are `here` can't touch another one from `now` to `until`.
 
-    The gap stays above a parabola (see conservative_advancement.py), lowest at its ends. Without a division:
-    it is asked of all that come near, and is true of nearly all.
+    The gap stays above a concave parabola (see conservative_advancement.py), lowest at one of its ends.
+    Without a division: this runs for every pair of the broad phase, and is true of nearly all.
     """
     place, velocity = here
     apart = sub(place, position_at(other, now))
@@ -75,7 +75,7 @@ def cannot_touch(here, other, bend, radius, now, until):
 
 @kernel
 def separation_time_of_balls(a, b, radius, now, until):
-    """Time at which two balls that touch without approach are clear of each other, or `now` if they press."""
+    """Time by which two balls in contact without approach have separated, or `now` if they press on."""
     wait = 1e-9
     while now + wait < until and wait < 1e-2:
         gap, rate, _ = gap_between(a, b, radius, now + wait)
@@ -89,9 +89,9 @@ def separation_time_of_balls(a, b, radius, now, until):
 
 @kernel
 def time_of_impact_of_balls(a, b, bend, radius, begin, until):
-    """Time from `begin` to `until` up to which two balls do not touch; whether they do then.
+    """Time of impact of two balls between `begin` and `until`, or a safe time; whether it is an impact.
 
-    `bend` bounds the acceleration of one against the other: of two that fly alike it is nearly none.
+    `bend` bounds their relative acceleration: gravity cancels, so of two balls in flight it is small.
     """
     now = begin
     for _ in range(MOST_ADVANCES):
@@ -99,7 +99,7 @@ def time_of_impact_of_balls(a, b, bend, radius, begin, until):
         if gap <= TOUCH:
             if rate < -TANGENTIAL or now > begin and rate <= 0.0:
                 return now, True
-            if rate <= TANGENTIAL:
+            if rate <= TANGENTIAL:  # the parabola says nothing here: rounding has either sign
                 now = separation_time_of_balls(a, b, radius, now, until)
                 if now == begin:
                     return now, True
@@ -114,9 +114,10 @@ def time_of_impact_of_balls(a, b, bend, radius, begin, until):
 
 @kernel
 def is_left_to_time_stepping(ball, other, radius, now):
-    """Whether the contact of a time-stepped ball with another one is left to the time steps."""
+    """Whether the contact of a time-stepped ball with another ball is left to time stepping."""
     if not ball['time_stepping']:
         return False
+    # One that has only just joined is in no contact of the solver before its first time step.
     if ball['time_stepping'] == STEPPED and other['time_stepping'] == STEPPED:
         return True
     gap, rate, _ = gap_between(ball, other, radius, now)
@@ -126,7 +127,7 @@ def is_left_to_time_stepping(ball, other, radius, now):
 
 @kernel
 def within_contact_reach(ball):
-    """Whether a time-stepped ball touches nothing on its segment but what its contacts hold it off."""
+    """Whether a time-stepped ball stays within its contact margin, where it hits only its contacts."""
     if ball['time_stepping'] != STEPPED:
         return False
     return length(load(ball['position_coefficients'][5])) <= ball['contact_reach']
@@ -144,9 +145,10 @@ def _stand_in_the_way(work, balls, i, radius, now):
 
 @shared
 def interrupt_segments_at(work, balls, i, radius, now):
-    """End segments that others were laid through ball `i`, which rests now. Writes end, ending, target, ends.
+    """End the segments of other balls that hit ball `i`, which rests now. Writes end, ending, target.
 
-    They were laid while it still moved, and looked no further than to the end of its segment.
+    They were planned while it still moved, and tested against it only up to the end of its segment. Writes
+    segment_ends, too.
     """
     ball = balls[i]
     place = load(ball['position'])
@@ -172,7 +174,7 @@ def interrupt_segments_at(work, balls, i, radius, now):
 
 @kernel
 def is_over_many_stepped(work, balls, low, high):
-    """Whether many time-stepped balls come into the box from `low` to `high`."""
+    """Whether MANY_STEPPED or more time-stepped balls overlap the box from `low` to `high`."""
     found = 0
     at = next_node(work, 0, low, high)
     while at >= 0 and found < MANY_STEPPED:
@@ -183,15 +185,17 @@ def is_over_many_stepped(work, balls, low, high):
 
 @shared
 def first_ball_impact(work, balls, i, radius, now):
-    """First time at which ball `i`'s segment touches another ball, which, and whether it really does."""
+    """Time of impact of ball `i`'s segment with another ball, or a safe time; the ball; whether they hit."""
     ball = balls[i]
     until = ball['end']
     if within_contact_reach(ball) and not ball['watches_neighbours']:
         return until, -1, False
+    # Over a pile the segment is cut short, or its box would overlap all of the pile.
     low, high = swept_box(ball, 0.0, until - now, radius)
     while is_long(low, high, SHORT_BOX * radius) and is_over_many_stepped(work, balls, low, high):
         until = now + 0.5 * (until - now)
         low, high = swept_box(ball, 0.0, until - now, radius)
+    # Found once for all pairs: of each other ball only its deviation from that acceleration is needed.
     usual, stray = acceleration_at_start(ball)
     here = position_at(ball, now), velocity_at(ball, now)
     best = until
@@ -200,14 +204,16 @@ def first_ball_impact(work, balls, i, radius, now):
     at = next_node(work, 0, low, high)
     while at >= 0:
         j = work.nodes[at]['ball']
-        # What is stepped together, or asleep beside it, is held by its contacts.
+        # Contacts of balls that are stepped together, or with a sleeper, belong to the contact solver.
         other = balls[j]
         is_there = j != i and other['phase'] != HOLED
         if is_there and not is_left_to_time_stepping(ball, other, radius, now):
+            # What comes after the end of the other's segment is tested when that has its next one.
             last = min(best, other['end'])
             bend = stray + acceleration_deviation(other, usual)
             if last >= now and not cannot_touch(here, other, bend, radius, now, last):
                 time, touches = time_of_impact_of_balls(ball, other, bend, radius, now, last)
+                # At equal times an impact has precedence over a safe time.
                 if touches and (time < best or not hit) or time < last:
                     best = time
                     who = j

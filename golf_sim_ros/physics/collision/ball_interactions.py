@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a ball has to do with others. Where there is one ball, nothing of it is in the machine code.
+"""Laws of ball against ball. Where there is one ball, nothing of them is in the machine code.
 
-The engine's scratch is a record: its type says whether balls touch each other. These laws have bodies for
-`Crowd`; for `SingleBallWorkspace` the defaults hold.
+The engine's workspace is a record: its type says whether balls touch each other. These laws have bodies for
+`MultiBallWorkspace`; for `SingleBallWorkspace` the defaults hold.
 """
 from typing import NamedTuple
 
@@ -15,11 +15,12 @@ class SingleBallWorkspace(NamedTuple):
     """Workspace of an engine whose balls do not touch each other.
 
     ``segment_ends``: when each ball's segment ends; ``involved``: balls of the event at hand;
-    ``involved_index``: where each ball stands among those, or -1; ``contacts``: theirs; ``contact_counts``:
-    active contacts of each ball; ``velocity_change`` [m/s] by the impulses that are tried;
-    ``position_change`` [m] that takes overlaps away; ``motion_before`` an impact and ``solved_motion`` of a
-    time step: velocity and spin; ``count``: of involved balls, of contacts, of segments since the tree was
-    built, and whether any ball may be asleep on another; ``spent``: cycles by stage, empty if nobody asks.
+    ``involved_index``: index of each ball among those, or -1; ``contacts``: rows of `CONTACT`;
+    ``contact_counts``: active contacts of each ball; ``velocity_change`` [m/s] by the extrapolated impulses;
+    ``position_change`` [m] that corrects penetration; ``motion_before``: velocity and spin before an impact;
+    ``solved_motion``: the same of a time step; ``count``: of involved balls, of contacts, of segments since
+    the tree was built, and whether any ball may be asleep on another; ``spent``: cycles by stage, empty
+    unless they are measured.
     """
 
     segment_ends: np.ndarray
@@ -37,46 +38,46 @@ class SingleBallWorkspace(NamedTuple):
 
 @generic
 def prepare_broad_phase(work, balls, radius):
-    """Make ready for advancing."""
+    """Prepare the broad phase for a call of the engine. Writes the tree, count."""
 
 
 @generic
 def update_tree(work, balls, i, radius):
-    """Take note of ball `i`'s new segment."""
+    """Update the broad phase for ball `i`'s new segment. Writes the tree."""
 
 
 @generic
 def first_ball_contact(work, balls, i, radius, now):
-    """First time at which ball `i`'s segment touches another ball, which, and whether it really does."""
+    """First time at which ball `i`'s segment may touch a ball; which ball; whether it is an impact."""
     return balls[i]['end'], -1, False
 
 
 @generic
 def interrupt_segments(work, balls, i, radius, now):
-    """Let balls that move end their segments where they meet ball `i`, which rests from now on."""
+    """End the segments of moving balls where they hit ball `i`, which rests from now on. Writes segments."""
 
 
 @generic
 def collect_ball_contacts(work, land, balls, i, now):
-    """Add contacts of ball `i` with other balls, which become involved."""
+    """Add the contacts of ball `i` with other balls, which become involved. Writes contacts, involved."""
 
 
 @generic
 def resolve_ball_impact(work, land, balls, i, now, log):
-    """Let ball `i` collide with the ball that it meets, and all that touch. Writes motion; logs impacts."""
+    """Resolve the impact of ball `i` with its target and all that touches. Writes motion; logs impacts."""
 
 
 @generic
 def step_together(work, land, balls, i, now):
-    """Let a ball that others hold move with them. Returns whether it is such a ball."""
+    """Whether ball `i` is time-stepped with others; solves their step if one is due. Writes motion."""
     return False
 
 
 @generic
 def wake(work, balls, radius, now):
-    """Wake sleepers that lean on involved balls; those wake others as they move. Writes involved, phase."""
+    """Wake sleepers that touch involved balls; they wake others as they move. Writes involved, phase."""
 
 
 @generic
 def log_ball_impacts(work, balls, now, log):
-    """Log the impacts of balls among the contacts."""
+    """Log the impacts of balls with balls among the contacts. Writes the log."""

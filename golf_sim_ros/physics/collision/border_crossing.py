@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When a ball in contact crosses a border in plan: the outline of a surface, or of a zone of one material."""
+"""Time at which a ball in contact crosses a border in plan: an outline of a surface or of a zone."""
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.vector import add, add_scaled, dot, length, sub, load
@@ -9,9 +9,9 @@ from .conservative_advancement import MOST_ADVANCES, TOUCH, advancement_bound
 
 @shared
 def first_border_crossing(ground, ball, radius, until):
-    """First time, at most `until`, at which the segment crosses a border in plan, and whether so.
+    """First time, at most `until`, at which the segment crosses a border in plan; whether it does.
 
-    It is the ball's foot that crosses.
+    What crosses is the ball's foot, its lowest point along the normal: there it is supported.
     """
     best = until
     crosses = False
@@ -22,6 +22,7 @@ def first_border_crossing(ground, ball, radius, until):
         border = ground.borders[i]
         end_x = border['start'][0] + border['length'] * border['direction'][0]
         end_y = border['start'][1] + border['length'] * border['direction'][1]
+        # From the centre to the foot, by the normal at the segment's start.
         dx = -radius * ball['normal'][0]
         dy = -radius * ball['normal'][1]
         room = border['radius']
@@ -45,14 +46,14 @@ def first_border_crossing(ground, ball, radius, until):
 
 @kernel
 def limit_crossing_time(ball, point, inward, until):
-    """First time before `until` at which the segment passes the line through `point`, or `until`."""
+    """First time before `until` at which the segment leaves through the line at `point`, or `until`."""
     time = 0.0
     bend = max(0.0, -least_acceleration(ball, inward))
     for _ in range(MOST_ADVANCES):
         gap = dot(sub(position(ball, time), point), inward)
         rate = dot(velocity(ball, time), inward)
         if gap <= TOUCH:
-            if rate < 0.0:  # on the line from the start: as far past it as tells what is there
+            if rate < 0.0:  # on the line from the start: far enough past it to tell what is there
                 return time if time > 0.0 else min(until, 2.0 * surfaces.LOOK_AHEAD / -rate)
             gap = TOUCH
         time += max(advancement_bound(gap, rate, bend), 1e-12)
@@ -63,7 +64,7 @@ def limit_crossing_time(ball, point, inward, until):
 
 @kernel
 def border_crossing_time(border, ball, shift, bend, until):
-    """First time before `until` at which the segment, moved by `shift`, meets `border`, or `until`.
+    """First time before `until` at which the segment, moved by `shift`, reaches `border`, or `until`.
 
     A segment that starts on the border has crossed it already.
     """
@@ -71,6 +72,7 @@ def border_crossing_time(border, ball, shift, bend, until):
     start = add(position(ball, 0.0), shift)
     gap, direction = surfaces.distance_in_plan(border, start[0], start[1])
     if gap <= 2 * TOUCH:
+        # Some 10 nm past the border, or the next segment would end on it again, and so on without end.
         speed = length(velocity(ball, 0.0))
         time = 1e-8 / (speed + 1e-8)
         if time >= until:

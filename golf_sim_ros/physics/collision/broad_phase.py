@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Broad phase: which balls are near each other, by a tree of axis-aligned boxes.
+"""Broad phase: which balls may touch, by a tree of axis-aligned bounding boxes (AABB tree).
 
-Every ball's segment has a box. The boxes are the leaves of a binary tree, laid out depth first, so
-that looking for all that meet a box needs no stack: a node whose box is missed is skipped with all below
-it::
+Every ball's segment has a swept box. The boxes are the leaves of a binary tree, stored depth first, so
+that a query needs no stack: a node whose box is missed is skipped with all below it::
 
         0                nodes  0 1 2 3 4     node 1 has the leaves 2 and 3;
        / \\               skip   5 4 3 4 5     missing 1, go on at 4
@@ -11,7 +10,8 @@ it::
      / \\
     2   3
 
-A ball that gets a new segment widens or narrows the boxes above its leaf; at times the tree is built anew.
+A new segment of a ball refits the boxes above its leaf; after as many segments as there are balls the tree is
+rebuilt, for refitting keeps balls together that have moved apart.
 """
 from ..jit import kernel, shared
 from ..mechanics.vector import add_scaled, store, load
@@ -20,7 +20,7 @@ from . import ball_interactions
 from .conservative_advancement import swept_box
 from .workspace import TREE_AGE, ASLEEP, MultiBallWorkspace
 
-LEAF_MARGIN = 1e-3  # m around the box of a time-stepped ball, which seldom goes far
+LEAF_MARGIN = 1e-3  # m around the box of a time-stepped ball, which seldom goes far: a fat AABB
 
 
 @ball_interactions.prepare_broad_phase.register(MultiBallWorkspace)
@@ -35,9 +35,10 @@ def _prepare(work, balls, radius):
 
 @kernel
 def segment_box(ball, radius, room):
-    """Box of the ball's segment, with `room` around it."""
+    """Swept box of the ball on its whole segment, with `room` around it."""
     if moves(ball['phase']) and ball['time_stepping'] != STEPPED:
         return swept_box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
+    # Straight segments: the ends bound them.
     half = (radius + room, radius + room, radius + room)
     here = load(ball['origin']) if moves(ball['phase']) else load(ball['position'])
     there = add_scaled(here, 1.0, load(ball['position_coefficients'][5])) if moves(ball['phase']) else here
@@ -48,7 +49,7 @@ def segment_box(ball, radius, room):
 
 @kernel
 def write_leaf(ball, node, radius):
-    """Write the box of the ball's segment into its leaf; of a time-stepped one with room for some steps."""
+    """Write the swept box of the ball's segment into its leaf; a fat one if it is time-stepped."""
     low, high = segment_box(ball, radius, LEAF_MARGIN if ball['time_stepping'] == STEPPED else 0.0)
     store(node['low'], low)
     store(node['high'], high)
@@ -56,9 +57,10 @@ def write_leaf(ball, node, radius):
 
 @kernel
 def leaf_serves(ball, node, radius):
-    """Whether the box in the leaf of a time-stepped ball still serves, and is not far too large."""
+    """Whether the fat box of a time-stepped ball still contains its segment, and is not far too large."""
     if ball['time_stepping'] != STEPPED:
         return False
+    # Neither too small, which would miss contacts, nor so large that queries find balls far away.
     low, high = segment_box(ball, radius, 0.0)
     for k in range(3):
         if not (0.0 <= low[k] - node['low'][k] <= 3.0 * LEAF_MARGIN
@@ -69,7 +71,7 @@ def leaf_serves(ball, node, radius):
 
 @kernel
 def refit(work, i):
-    """Write the box of node `i` from those below it."""
+    """Write the box of node `i` around those of its children."""
     node = work.nodes[i]
     one = work.nodes[i + 1]
     other = work.nodes[one['skip']]
@@ -80,7 +82,7 @@ def refit(work, i):
 
 @shared
 def rebuild(work, balls, radius):
-    """Build the tree anew, whatever it was before. Writes nodes, leaves, order, count."""
+    """Build the tree top down, with median splits of the longest axis. Writes nodes, leaves, order, count."""
     work.count[TREE_AGE] = 0
     for i in range(len(balls)):
         work.order[i] = i
@@ -90,7 +92,7 @@ def rebuild(work, balls, radius):
     for i in range(len(work.nodes)):
         node = work.nodes[i]
         n = node['count']
-        node['skip'] = i + 2 * n - 1
+        node['skip'] = i + 2 * n - 1  # a subtree of n leaves has 2 n - 1 nodes
         node['ball'] = -1
         if n == 1:
             number = work.order[node['first']]
@@ -102,6 +104,7 @@ def rebuild(work, balls, radius):
         partition(work.order, balls, node['first'], node['first'] + n, node['first'] + half)
         set_node(work.nodes[i + 1], i, node['first'], half)
         set_node(work.nodes[i + 2 * half], i, node['first'] + half, n - half)
+    # Children stand behind their parents: refit from the back.
     for back in range(1, len(work.nodes) + 1):
         i = len(work.nodes) - back
         if work.nodes[i]['ball'] < 0:
@@ -110,7 +113,7 @@ def rebuild(work, balls, radius):
 
 @kernel
 def set_node(node, parent, first, count):
-    """Give a node its parent and its balls."""
+    """Write a node's parent and its range of balls."""
     node['parent'] = parent
     node['first'] = first
     node['count'] = count
@@ -118,7 +121,7 @@ def set_node(node, parent, first, count):
 
 @kernel
 def partition(order, balls, first, last, middle):
-    """Put balls `first` to `last` in order along their longest axis, as far as `middle` parts them."""
+    """Partition balls `first` to `last` at index `middle` along the longest axis. Writes order."""
     axis = 0
     widest = -1.0
     for k in range(3):
@@ -131,7 +134,7 @@ def partition(order, balls, first, last, middle):
             widest = high - low
             axis = k
     last -= 1
-    while first < last:  # Hoare's selection
+    while first < last:  # Hoare's quickselect: halves need not be sorted
         pivot = balls[order[(first + last) // 2]]['position'][axis]
         i = first
         j = last
@@ -159,7 +162,8 @@ def _note(work, balls, i, radius):
 
 @shared
 def update_leaf(work, balls, i, radius):
-    """Tell ball `i`'s new segment. Writes the tree."""
+    """Update the tree for ball `i`'s new segment. Writes nodes, or all of the tree if it is rebuilt."""
+    # A pile moves so little that most of its segments change nothing in the tree.
     leaf = work.leaves[i]
     if leaf_serves(balls[i], work.nodes[leaf], radius):
         return
@@ -176,7 +180,7 @@ def update_leaf(work, balls, i, radius):
 
 @kernel
 def next_node(work, at, low, high):
-    """First leaf from node `at` on that meets the box from `low` to `high`, or -1."""
+    """First leaf from node `at` on whose box overlaps that from `low` to `high`, or -1."""
     while at < len(work.nodes):
         node = work.nodes[at]
         if (node['low'][0] > high[0] or node['high'][0] < low[0] or node['low'][1] > high[1]

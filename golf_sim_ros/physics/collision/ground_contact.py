@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Time of impact of a ball's segment with the ground.
 
-Parts of the ground are convex, or have hollows of bounded curvature: conservative advancement along the
-segment never steps over a contact with one (see conservative_advancement.py). Where a part has hollows of
-curvature at most K, the gap's rate can fall by another 2 K v^2 as long as the ball's centre is nearer than
+Parts of the ground are convex, or have concave regions of bounded curvature: conservative advancement along
+the segment never steps over a contact with one (see conservative_advancement.py). Where the curvature of
+hollows is at most K, the gap's rate can fall by another 2 K v^2 as long as the ball's centre is nearer than
 1 / (2 K); from further away the ball's speed bounds how fast a gap closes.
 
-Many parts in the box around a segment are looked at stretch by stretch, each half as long as long as it
-is crowded: only those on the way are asked.
+Where the swept box of a segment overlaps many parts, the segment is tested stretch by stretch, each halved
+until its box overlaps few: only parts near the path are tested.
 """
 from ..geometry import surfaces
 from ..geometry.plane_patch import FLUSH
@@ -18,23 +18,25 @@ from ..trajectory.segment import (acceleration_bounds, control_point, greatest_a
                                   plane_gap, plane_gap_coefficients, position, velocity)
 from .conservative_advancement import (MOST_ADVANCES, NEVER, PLAIN_APPROACH, RISING, SHORT_BOX, TANGENTIAL,
                                        TOUCH, swept_box, is_long, advancement_bound)
-HOLDING_GAP = 1e-7  # m: surfaces nearer than this hold a wedged ball
-RESTING_GAP = 5e-5  # m: the same of a time-stepped ball, balls too
-GENTLE_APPROACH = 0.1  # m/s of approach: slower, a ball joins the time-stepped ones that it meets
+HOLDING_GAP = 1e-7  # m: contact margin of a wedged ball
+RESTING_GAP = 5e-5  # m: contact margin of a time-stepped ball, to the ground and to balls
+GENTLE_APPROACH = 0.1  # m/s of approach: after a slower impact with a time-stepped ball a ball joins it
 SAME_DISTANCE = 1e-9  # m: distances that differ less are those of the same point
-ESCAPE = 1e-9  # m: so far a ball that leaves a hollow may move before it is looked at again
-MANY_STEPS = 100  # after which the bound on the speed all along is taken for too rough
-LOOK = 1.0 / 32.0  # of the work of a segment elsewhere: so much is a look at one part
-FEW_STEPS = 4  # steps, after which it is worth looking whether a part's nearest face is the same all along
-MANY_PARTS = 8  # parts: so many in the box around a stretch of path are worth a shorter stretch
-LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner has left it
+ESCAPE = 1e-9  # m: least advance of a ball that leaves a concave part, which its bound would hold back
+MANY_STEPS = 100  # advances after which the bound on the speed over the whole segment is taken for too rough
+LOOK = 1.0 / 32.0  # work of one query of a part, over that of planning a segment
+FEW_STEPS = 4  # advances after which it pays to test whether one face is nearest to the whole segment
+MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
+LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner counts as having left it
 NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 
 
 @kernel
 def sees_one_normal(ground, part, ball, normal):
-    """Whether the whole segment sees one and the same `normal` of a convex `part`."""
+    """Whether the contact normal of a convex `part` is the same `normal` along the whole segment."""
+    # The points that see one face along its normal form a convex region: it contains a curve whose control
+    # points it contains.
     for i in range(6):
         _, seen = surfaces.nearest(ground, part, control_point(ball, i))
         if dot(seen, normal) < 1.0 - 1e-15:
@@ -44,7 +46,7 @@ def sees_one_normal(ground, part, ball, normal):
 
 @kernel
 def plane_gap_bounds(ground, part, ball, radius):
-    """Coefficients of the gap to `part`, seen with one normal all along; how fast its rate falls, rises."""
+    """Bernstein coefficients of the gap to `part` of one normal; bounds on how its rate falls, and rises."""
     distance, normal = surfaces.nearest(ground, part, control_point(ball, 0))
     over = plane_gap_coefficients(ball, normal, distance - radius)
     falls, rises = acceleration_bounds(over, ball['span'])
@@ -53,7 +55,9 @@ def plane_gap_bounds(ground, part, ball, radius):
 
 @kernel
 def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
-    """`advancement_bound` over a part with hollows of that curvature, `distance` from the ball's centre."""
+    """`advancement_bound` to a part with hollows of that curvature, `distance` from the ball's centre."""
+    # The ball's speed bounds the advance from anywhere; the parabola only within the tube of unique nearest
+    # points, and so only until the ball may have left that.
     sure = (gap if gap > TOUCH else ESCAPE) / (fastest + 1e-9)
     tube = 0.5 / hollow - distance
     if tube <= 0.0:
@@ -64,10 +68,10 @@ def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
 
 @kernel
 def separation_time(ground, part, ball, radius, until):
-    """Time up to which a ball that touches `part` tangentially moves off it, or 0 if it presses on.
+    """Time by which a ball in tangential contact with `part` has separated, or 0 if it presses on.
 
-    A ball that flies off a flat ridge rises by less than can be told from touching before it comes down
-    beyond: up to where it still rose, it is clear.
+    A ball that flies off a flat ridge rises by less than TOUCH before it comes down beyond: up to the last
+    time at which it still rose, it is clear.
     """
     time = 1e-9
     rising = 0.0
@@ -88,10 +92,11 @@ def separation_time(ground, part, ball, radius, until):
 
 @kernel
 def penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, hollow):
-    """Time for which a ball in a cut of `part`, or behind a one-sided sheet, is not clear of its plane yet.
+    """Safe time [s] for which a ball in a cut of `part`, or behind a one-sided sheet, has not left it yet.
 
-    Along a straight way a convex gap stays below its chord, and the path strays from that way by at
-    most A s^2 / 2. A cut goes on up to its outline, however near to its plane the ball moves.
+    There the gap is negative, and no impact. Along a straight line a convex gap stays below its chord, and
+    the path strays from that line by at most A s^2 / 2. A cut reaches up to its outline, however near to the
+    plane the ball moves.
     """
     place = position(ball, time)
     way = velocity(ball, time)
@@ -109,7 +114,7 @@ def penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, ho
 
 @kernel
 def time_of_impact(ground, part, ball, radius, begin, until):
-    """Time from `begin` to `until` up to which the segment is safe from `part`; whether it touches then.
+    """Time of impact with `part` between `begin` and `until`, or a safe time; whether it is an impact.
 
     Writes segments_spent.
     """
@@ -139,7 +144,8 @@ def time_of_impact(ground, part, ball, radius, begin, until):
                 if time >= until:
                     return until, False
                 continue
-            # An edge is known to FLUSH, its direction to FLUSH over the radius: `separation_time` tells.
+            # An edge's place is exact to FLUSH, so its normal to FLUSH over the radius: a rate within that
+            # may be of either sign, and `separation_time` tells which.
             grazing = TANGENTIAL + FLUSH / radius * length(velocity(ball, time))
             if rate < -grazing or time > 0.0 and rate <= 0.0:
                 return time, True
@@ -163,7 +169,8 @@ def time_of_impact(ground, part, ball, radius, begin, until):
             time += sure
             if (max(bend, rises) * sure * sure < TOUCH and rate < -PLAIN_APPROACH and time < until
                     and surfaces.touchable(ground, part, position(ball, time))):
-                return time, True  # by then the gap is the square's half at most, either way
+                # Another advance would change less than TOUCH: the gap is within bend s^2 / 2 of zero by now.
+                return time, True
         if time >= until:
             return until, False
     return time, False
@@ -171,12 +178,11 @@ def time_of_impact(ground, part, ball, radius, begin, until):
 
 @shared
 def first_ground_contact(ground, ball, radius, until, on):
-    """First time at which the segment touches any part, which one, and whether it really does.
+    """Time of impact of the segment with the ground, or a safe time; the part; whether it is an impact.
 
-    `on` says what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane
-    under it, where surfaces in that plane, and edges met tangentially, are seams and no obstacles;
-    ON_EDGE the edge that supports it; ON_CURVE the smooth surface; CAUGHT all that holds it.
-    Writes segments_spent.
+    `on` is what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane under it, where
+    coplanar surfaces, and edges hit tangentially, are seams and no obstacles; ON_EDGE the edge that supports
+    it; ON_CURVE the smooth surface; WEDGED all that holds it. Writes segments_spent.
     """
     begin = 0.0
     stretch = until
@@ -198,7 +204,7 @@ def first_ground_contact(ground, ball, radius, until, on):
 
 @kernel
 def has_many_parts(ground, low, high):
-    """Whether many parts have a point in the box."""
+    """Whether MANY_PARTS or more overlap the box from `low` to `high`."""
     if surfaces.parts(ground) < MANY_PARTS:
         return False
     part = NO_PART
@@ -211,7 +217,7 @@ def has_many_parts(ground, low, high):
 
 @kernel
 def first_in_box(ground, ball, radius, begin, end, low, high, on):
-    """`first_ground_contact` from `begin` to `end` with what has a point in the box from `low` to `high`."""
+    """`first_ground_contact` from `begin` to `end`, with parts that overlap the box from `low` to `high`."""
     best = end
     who = NO_PART
     hit = False
@@ -221,6 +227,7 @@ def first_in_box(ground, ball, radius, begin, end, low, high, on):
         ball['segments_spent'] += LOOK
         if not is_ignored(ground, part, ball, radius, foot, best, on):
             time, touches = time_of_impact(ground, part, ball, radius, begin, best)
+            # Impacts that turn out to be seams, or the edge that the ball follows, are dropped.
             if touches and on == ON_FLAT:
                 _, normal = surfaces.nearest(ground, part, position(ball, time))
                 touches = dot(normal, load(ball['normal'])) <= 1.0 - 1e-9
@@ -241,7 +248,7 @@ def first_in_box(ground, ball, radius, begin, end, low, high, on):
 
 @kernel
 def is_ignored(ground, part, ball, radius, foot, until, on):
-    """Whether `part` is no obstacle to the ball because of what it is `on`."""
+    """Whether `part` is no obstacle, since the ball is in lasting contact with it: `on`."""
     if on == ON_FLAT:
         return surfaces.in_plane(ground, part, foot, load(ball['normal']))
     if on == WEDGED:
@@ -255,9 +262,10 @@ def is_ignored(ground, part, ball, radius, foot, until, on):
 
 @kernel
 def holds_wedged(ground, part, ball, radius):
-    """Whether `part` holds the wedged ball as its segment begins, and so is no obstacle to it.
+    """Whether `part` is within the contact margin of a wedged or time-stepped ball, and so no obstacle.
 
-    A time-stepped ball that another has just hit may be too fast to wait for the next time step.
+    It still is one to a time-stepped ball that another has just hit: that approaches too fast to wait for
+    the next time step.
     """
     distance, normal = surfaces.nearest(ground, part, load(ball['position']))
     if not ball['time_stepping']:
@@ -267,7 +275,7 @@ def holds_wedged(ground, part, ball, radius):
 
 @kernel
 def is_same_edge(ground, part, ball, until):
-    """Whether what is nearest of `part` is what supports the ball, now and `until` the segment's end."""
+    """Whether the nearest point of `part` is that of the support, at the start and at time `until`."""
     if part == ball['support']:
         return True
     for i in range(2):
@@ -281,9 +289,9 @@ def is_same_edge(ground, part, ball, until):
 
 @kernel
 def edge_duration(ground, part, ball, until):
-    """Time, `until` at most, for which the supporting edge is that of `part` too; 0 if not at all.
+    """Time, `until` at most, for which `part` shares the supporting edge; 0 if not at all.
 
-    Two faces share the edge that the ball follows: one is no obstacle before the ball leaves for it.
+    Two faces share the edge that a ball rolls around: a face is no obstacle before the ball leaves the edge.
     """
     while until > LEAST_EDGE_TIME:
         if is_same_edge(ground, part, ball, until):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When a ball's centre first comes into water, along a segment: never stepped over.
+"""Time at which a ball's centre enters water, along a segment, by conservative advancement.
 
-To be in water is to be below its level and inside its outline. It is safe to advance as long as either must
-still fail.
+A ball is in water if its centre is below the level and inside the outline in plan. Advancing is safe as long
+as either condition must still fail.
 """
 from ..geometry.polygon import beside_region
 from ..jit import kernel, shared
@@ -13,12 +13,12 @@ from .conservative_advancement import MOST_ADVANCES, TANGENTIAL, TOUCH, advancem
 
 @shared
 def first_water_entry(waters, ball, until):
-    """First time, at most `until`, at which the segment enters water; number of that water, from 1, or 0."""
+    """First time, at most `until`, at which the segment enters water; number of the water, from 1, or 0."""
     best = until
     who = 0
     lowest, _ = extent_along(ball, 2)
     for i in range(len(waters.levels)):
-        if lowest < waters.levels[i]:
+        if lowest < waters.levels[i]:  # else its control points, and so the curve, are above
             time, dips = water_entry_time(waters, i, ball, best)
             if dips:
                 best = time
@@ -34,6 +34,7 @@ def water_entry_time(waters, i, ball, until):
     time = 0.0
     for _ in range(MOST_ADVANCES):
         place = position(ball, time)
+        # The later of two safe times: both conditions have to hold at once.
         sure = max(time_above(place[2] - waters.levels[i], velocity(ball, time)[2], falling),
                    time_outside(beside_region(waters.outlines, i, place[0], place[1]),
                                 length(velocity(ball, time)), bend))
@@ -47,7 +48,7 @@ def water_entry_time(waters, i, ball, until):
 
 @kernel
 def time_above(gap, rate, falling):
-    """Time for which a centre at height `gap` over the level stays there; 0 below, or on it and sinking."""
+    """Safe time [s] for which a centre `gap` over the level stays above; 0 below, or on it and sinking."""
     if gap < -TOUCH or gap <= TOUCH and rate < -TANGENTIAL:
         return 0.0
     return advancement_bound(gap, max(rate, 0.0) if gap <= TOUCH else rate, falling)
@@ -55,5 +56,5 @@ def time_above(gap, rate, falling):
 
 @kernel
 def time_outside(away, speed, bend):
-    """Time for which a centre `away` from the outline in plan, of that `speed`, stays outside."""
+    """Safe time [s] for which a centre `away` [m] from the outline in plan stays outside at that `speed`."""
     return advancement_bound(away, -speed, bend) if away > TOUCH else 0.0

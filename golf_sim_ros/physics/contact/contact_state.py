@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a ball in contact slides, rolls, pivots or rests, and on what."""
+"""Contact mode of a ball, whether it slides, rolls, pivots or rests, and its support."""
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
@@ -11,7 +11,7 @@ from ..trajectory.equations_of_motion import LEAST_SPEED, rolling_deceleration, 
 
 @kernel
 def set_support(land, ball, part, normal):
-    """Let the ball stand on `part`, or on nothing (NO_PART). Writes support, material, normal."""
+    """Set the ball's support to `part`, or to none (NO_PART). Writes support, material, normal."""
     ball['support'] = part
     ball['material'] = contact_material_number(land, ball, part, normal)
     store(ball['normal'], normal)
@@ -32,7 +32,7 @@ def contact_material(land, ball, part, normal):
 
 @kernel
 def remove_slip(land, ball):
-    """Let grip take all slip at once, as an impulse. Writes velocity and spin."""
+    """Remove all slip at once by the tangential impulse of grip. Writes velocity and spin."""
     normal = load(ball['normal'])
     r = land.ball.radius
     k = land.ball.inertia
@@ -43,13 +43,13 @@ def remove_slip(land, ball):
 
 @kernel
 def in_micro_bounces(ball, now):
-    """Whether the ball's last, tiny bounces are still going on."""
+    """Whether the ball's micro-bounces still go on."""
     return ball['micro_bounce_end'] > now
 
 
 @kernel
 def heading(land, ball):
-    """Unit vector to where the ball moves, or, where it stands, to where friction and weight drive it."""
+    """Unit vector along the velocity, or, of a ball without any, along what friction and weight give it."""
     v = load(ball['velocity'])
     if length(v) > 0.0:
         return unit(v, ZERO)
@@ -63,9 +63,9 @@ def heading(land, ball):
 
 @shared
 def choose_contact_mode(land, ball, now):
-    """Decide whether a ball in contact slides, rolls, pivots or rests. Writes phase and motion.
+    """Choose whether a ball in contact slides, rolls, pivots or rests. Writes phase, velocity and spin.
 
-    A ball that rolls goes on rolling while its contact grips; any other must lose its slip first.
+    A ball that rolls keeps rolling while its contact grips; any other must lose its slip first.
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
@@ -74,6 +74,7 @@ def choose_contact_mode(land, ball, now):
     k = land.ball.inertia
     turning = dot(load(ball['spin']), normal)
     needed = rolling_needs(downhill, k)
+    # Friction that turns the ball as it rolls must be within the cone of static friction.
     grips = needed <= material['static_friction'] * press
     store(ball['velocity'], v)
     sliding = slip(v, load(ball['spin']), normal, land.ball.radius)
@@ -82,11 +83,13 @@ def choose_contact_mode(land, ball, now):
         return
     ball['phase'] = ROLL
     holds = length(downhill) / (1.0 + k) <= rolling_deceleration(material, press, needed)
+    # Micro-bounces may still drive it: the air acts on them, and nothing resists.
     if length(v) <= LEAST_SPEED and holds and not in_micro_bounces(ball, now):
         v = ZERO
         store(ball['velocity'], v)
         if abs(turning) * land.ball.radius <= LEAST_SPEED:
             turning = 0.0
+        # Without pivot friction a spinning top would never rest: its spin counts no more.
         if material['pivot_friction'] == 0.0 or turning == 0.0:
             ball['phase'] = REST
     store(ball['spin'], add_scaled(scale(1.0 / land.ball.radius, cross(normal, v)), turning, normal))

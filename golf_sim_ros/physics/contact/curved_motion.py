@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Following ground which is not flat: around an edge, over a crest, across a green.
+"""Sliding and rolling on ground which is not flat: around an edge, over a crest, across a green.
 
-The integrator of flight steps the equations of contact as well; at a step's end the ball is put back on
-the ground, with a velocity along it and, where it rolls, the spin of rolling. A step ends early where
-the ground ceases to press. Friction jumps where slip ends and where the ball stops: steps come near as a
-geometric series, and what is left is taken at once when it no longer counts.
+The integrator of flight steps the equations of contact as well; at a step's end the ball is projected onto
+the constraint: its position to the ground, its velocity to the tangent plane, its spin to that of rolling, if
+it rolls. A step ends early where the normal force vanishes. Friction is discontinuous where slip ends and
+where the ball stops: steps approach such a time as a geometric series, and what is left is removed at once
+when it no longer counts.
 """
 from math import inf
 
@@ -19,28 +20,32 @@ from ..trajectory.equations_of_motion import LEAST_SPEED, contact_rates, materia
 from ..trajectory.segment import fit_segment, position
 from .contact_state import in_micro_bounces, choose_contact_mode, remove_slip
 
-MOST_NORMAL_TURN = 0.1  # rad of the normal in a step
+MOST_NORMAL_TURN = 0.1  # rad by which the normal may turn in a step
 FIRST_STEP = 0.02  # s
 LEAST_STEP = 1e-9  # s
-SHORT_STEP = 1e-6  # s
-CORRECTIONS = 12  # of a step's length
-CORRECTION_WORK = 1  # segments of a path elsewhere: so much is each of them, times the effort of the ground
-LIFTS = 1e-6  # of the press at the start: a ground that pulls by more lets the ball go before
-APPROACH = 0.75  # of the time until friction jumps: the longest step towards it
-SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is taken at once
-GAIN = 0.03  # m/s^2: a step may gain so much energy over mass for each metre that a path may be off,
+SHORT_STEP = 1e-6  # s: a shorter step's end is not projected in position
+CORRECTIONS = 12  # attempts at a step, each shorter than the last
+CORRECTION_WORK = 1  # work of an attempt, over that of planning a segment, times the effort of the ground
+LIFTS = 1e-6  # of the press at the start: a step at whose end the ground would pull harder is shortened
+APPROACH = 0.75  # of the time until friction is discontinuous: the longest step towards it
+SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is removed at once,
+GAIN = 0.03  # m/s^2: energy over mass that a step may gain for each metre that a path may be off,
 LEAST_GAIN = 2e-10  # J/kg: and this, which lifts a ball by 20 pm, and as much of the square of its speed
-LEAST_SLIP = 1e-7  # m/s: or so little,
-SLIP_TIME = 1e-8  # s: or what friction of the press takes meanwhile, which is more than a least step
+LEAST_SLIP = 1e-7  # m/s: or slip below this,
+SLIP_TIME = 1e-8  # s: or below what friction takes in this time, which is longer than a least step
 
 
 @shared
 def curved_segment(model, ball, now):
-    """Lay a step along ground that is not flat; lift off where the press is gone. Writes the curve."""
+    """Plan a step along ground that is not flat, or lift off where nothing presses.
+
+    Writes the curve, step, and in small ways motion and phase; see `snap_small_motion`.
+    """
     land = model.land
     place = load(ball['position'])
     w = load(ball['spin'])
     force, _, press, needed = contact_rates(land, ball, place, load(ball['velocity']), w)
+    # The air is asked only where the weight does not hold the ball: see `press_with_air`.
     holding = press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
     if holding <= 0.0:
         ball['phase'] = FLIGHT
@@ -58,6 +63,7 @@ def curved_segment(model, ball, now):
     h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
     h = min(h, MOST_NORMAL_TURN / max(length(turn), 1e-3))
     h = min(h, time_to_unwind(land, ball, press, turn))
+    # Never up to a discontinuity, where the method would lose its order.
     h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
     if in_micro_bounces(ball, now):
         h = min(h, ball['micro_bounce_end'] - now)
@@ -76,7 +82,7 @@ def curved_segment(model, ball, now):
         left = step_share_to_change(land, ball, v, slipping, holding, held)
         if left == 1.0:
             left = step_share_on_ground(land, ball)
-            following = min(following, 2.0 * h * left)
+            following = min(following, 2.0 * h * left)  # what limits this step limits the next one
             if left >= 1.0:
                 break
         if h * left <= LEAST_STEP:
@@ -87,10 +93,10 @@ def curved_segment(model, ball, now):
 
 @shared
 def press_with_air(model, ball, place, velocity, spin):
-    """Press with what the air adds to the weight.
+    """Press [m/s^2] of weight and aerodynamic forces together.
 
-    Topspin and wind hold a ball to a crest from where its weight alone would let it fly: it would be back at
-    once. Elsewhere a ball on the ground feels no air.
+    Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be back at
+    once. Elsewhere the air does not act on a ball on the ground.
     """
     _, normal = surfaces.nearest(model.land.ground, ball['support'], place)
     turn = surfaces.turn(model.land.ground, ball['support'], place, velocity)
@@ -100,9 +106,10 @@ def press_with_air(model, ball, place, velocity, spin):
 
 @shared
 def step_share_on_ground(land, ball):
-    """Share of the step, or more, over which its curve keeps to the ground as well as a path must.
+    """Share of the step, 1 or more if it stands, over which its curve stays on the ground to a path's limit.
 
-    The curve meets place, velocity and acceleration at both ends, so it errs by the step's sixth power.
+    The curve interpolates position, velocity and acceleration at both ends (quintic Hermite), so its error
+    goes with the step's sixth power.
     """
     off = 0.0
     for i in range(1, 4):
@@ -115,9 +122,9 @@ def step_share_on_ground(land, ball):
 
 @shared
 def snap_small_motion(land, ball, force, press, grips, now):
-    """Take away slip, or the way to a stop, that is too little to count. Writes motion and phase.
+    """Remove slip, or the way to a stop, that is too small to count. Writes motion and phase.
 
-    Grip takes slip as an impulse; so nothing is gained.
+    Slip is removed by an impulse of grip, which gains no energy.
     """
     v = load(ball['velocity'])
     normal = load(ball['normal'])
@@ -134,6 +141,7 @@ def snap_small_motion(land, ball, force, press, grips, now):
     slowing = -dot(force, v)
     if length(v) <= LEAST_SPEED or slowing <= 0.0 or material_under(land, ball)['rolling_resistance'] == 0.0:
         return
+    # The way to the stop, v^2 over twice the deceleration, is within the limit on a path's error.
     if 0.5 * dot(v, v) * dot(v, v) <= land.limits.path * slowing * length(v):
         store(ball['velocity'], ZERO)
         choose_contact_mode(land, ball, now)
@@ -141,15 +149,15 @@ def snap_small_motion(land, ball, force, press, grips, now):
 
 @kernel
 def slip_limit(land, press):
-    """Slip [m/s] that is too little to count, of a ball that presses with `press`."""
+    """Slip [m/s] that is too small to count, of a ball with that `press`."""
     return max(SLIP_COUNTS * land.limits.path, LEAST_SLIP, SLIP_TIME * press)
 
 
 @kernel
 def time_to_unwind(land, ball, press, turn):
-    """Time [s] until pivot friction has taken the spin about the normal, of a ball that turns about it.
+    """Time [s] until pivot friction stops the spin about the normal; infinite where it does not.
 
-    A normal that turns drives that spin: where it does so harder than friction brakes, there is no such time.
+    A normal that turns changes that spin, too: it may drive it harder than friction brakes.
     """
     r = land.ball.radius
     material = material_under(land, ball)
@@ -163,7 +171,7 @@ def time_to_unwind(land, ball, press, turn):
 
 @shared
 def time_to_change(land, ball, force, press):
-    """About how long [s] until slip ends, or until a braked ball stops."""
+    """Estimate of the time [s] until slip ends, or until a braked ball stops."""
     v = load(ball['velocity'])
     material = material_under(land, ball)
     if ball['phase'] == SLIDE:
@@ -173,14 +181,15 @@ def time_to_change(land, ball, force, press):
     slowing = -dot(force, v)
     if material['rolling_resistance'] == 0.0 or length(v) <= LEAST_SPEED:
         return inf
-    # Across its way it is braked at the rate of resistance over speed, even where a slope nearly drives it.
+    # The direction of motion changes at the rate of resistance over speed, even where a slope nearly balances
+    # the resistance along it.
     braked = length(v) / (material['rolling_resistance'] * max(press, 1e-3))
     return min(braked, dot(v, v) / slowing) if slowing > 0.0 else braked
 
 
 @shared
 def step_share_to_change(land, ball, v, slipping, holding, held):
-    """Share of the step that goes no further than to where the equations change, or 1.
+    """Share of the step that stays before a discontinuity of the equations, or 1.
 
     ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the end.
     """
@@ -189,6 +198,7 @@ def step_share_to_change(land, ball, v, slipping, holding, held):
     gain, allowed = gained(land, ball), GAIN * land.limits.path + LEAST_GAIN * (1.0 + dot(v, v))
     if gain > allowed:
         return max(0.9 * allowed / gain, 0.1)
+    # Slip or velocity that has turned round within the step has passed through zero, unseen by its stages.
     if ball['phase'] == SLIDE:
         turned = length(slipping) > LEAST_SPEED and dot(slipping, slip_at_end(land, ball)) < 0.0
     else:
@@ -199,10 +209,10 @@ def step_share_to_change(land, ball, v, slipping, holding, held):
 
 @kernel
 def gained(land, ball):
-    """Energy over mass [J/kg] that the ball gains on its segment but for that of its weight and the air's.
+    """Energy over mass [J/kg] that the ball gains on its segment beside the work of weight and air.
 
-    Ground only takes some: there is a gain where its curvature jumps, from edge to wall, and no stage of the
-    step tells so.
+    Ground only dissipates: there is a gain where its curvature is discontinuous, as from edge to wall, and no
+    stage of the step sees that.
     """
     place = load(ball['position'])
     way = load(ball['position_coefficients'][5])
@@ -218,9 +228,10 @@ def gained(land, ball):
 
 @shared
 def project_to_ground(land, ball):
-    """Put the end of the segment on the ground, moving along it. Writes the curve; returns the press there.
+    """Press at the segment's end, which is projected onto the ground and its tangent plane. Writes the curve.
 
-    Not after the shortest of steps: the rounding of far places, 5e-14 m, over a nanosecond is speed.
+    The position is not projected after the shortest of steps: its rounding error far from the origin,
+    5e-14 m, over a nanosecond is speed.
     """
     r = land.ball.radius
     x0 = load(ball['position'])

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sliding, rolling, pivoting, resting: motion of a ball that keeps touching flat ground.
+"""Sliding, rolling and pivoting on flat ground, in closed form (see coulomb_deceleration.py).
 
-Everything is in closed form (see coulomb_deceleration.py). With k the moment of inertia over
-m r^2, slip u obeys u' = g_t - (1 + 1/k) mu N u/|u|, rolling v' = g_t/(1 + k) - a v/|v|, and a ball
-slides as v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
+With k the moment of inertia over m r^2 and N the press, slip u obeys u' = g_t - (1 + 1/k) mu N u/|u|, the
+velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of sliding is v = v0 + g_t t/(1 + k) +
+k/(1 + k) (u - u0).
 """
 from math import inf
 
@@ -19,15 +19,18 @@ from ..trajectory.equations_of_motion import (LEAST_SPEED, micro_bounce_forces, 
 from ..trajectory.segment import fit_segment, position
 from .contact_state import in_micro_bounces
 
-LONGEST_SEGMENT = 10.0  # s of one segment
-UNHURRIED = 0.1  # s: a shorter segment must be the more exact: velocity errs by a path's error over its time
-LEAST_PATH_ERROR = 1e-12  # m: no curve is nearer than this to a closed form,
-RELATIVE_ROUNDING = 1e-15  # or than this share of how far away it is
+LONGEST_SEGMENT = 10.0  # s
+UNHURRIED = 0.1  # s: a shorter segment must be more exact, for velocity errs by position's error over time
+LEAST_PATH_ERROR = 1e-12  # m: no curve is asked to be nearer than this to a closed form,
+RELATIVE_ROUNDING = 1e-15  # or than this share of its distance from the origin
 
 
 @shared
 def plane_segment(land, ball, now):
-    """Lay the next segment of sliding or rolling on a plane, up to a stop or as far as it is exact."""
+    """Plan a segment of sliding or rolling on a plane, up to a stop or as far as a Bezier curve is exact.
+
+    Writes the curve, span and ending.
+    """
     normal = load(ball['normal'])
     material = material_under(land, ball)
     press, downhill = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
@@ -40,7 +43,7 @@ def plane_segment(land, ball, now):
     drift = scale(1.0 / (1.0 + k), downhill)
     if ball['phase'] == SLIDE:
         u = slip(v, load(ball['spin']), normal, land.ball.radius)
-        if length(u) <= LEAST_SPEED:  # where it turns back, or it would turn back for ever
+        if length(u) <= LEAST_SPEED:  # slip turns round here: else rounding would end a segment here for ever
             u = ZERO
         friction = (1.0 + 1.0 / k) * material['dynamic_friction'] * pressing
         motion = coulomb_deceleration.decelerated(u, downhill, friction, normal)
@@ -60,6 +63,8 @@ def plane_segment(land, ball, now):
     if unwinding > 0.0 and turning != 0.0:
         horizon = min(horizon, abs(turning) / unwinding)
     end = glide_end(motion, horizon)
+    # The closed form is exact, its quintic interpolant is not: the segment is halved until it errs by less
+    # than a path may.
     x = ball['position']
     rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
     while True:
@@ -76,7 +81,7 @@ def plane_segment(land, ball, now):
 
 @kernel
 def glide_end(motion, horizon):
-    """Parameter at the stop, if it comes within `horizon`, else at `horizon`."""
+    """Parameter at the stop, if it comes within `horizon` [s], else at `horizon`."""
     if coulomb_deceleration.stops(motion) and coulomb_deceleration.after(motion, inf)[0] <= horizon:
         return inf
     return coulomb_deceleration.parameter_at(motion, horizon)
@@ -84,7 +89,7 @@ def glide_end(motion, horizon):
 
 @kernel
 def glide_at(motion, coast, q):
-    """Time, way, velocity and slip (or rolling velocity) at the parameter `q`."""
+    """Time, displacement, velocity and slip (or rolling velocity) at the parameter `q`."""
     time, u, way = coulomb_deceleration.after(motion, q)
     start, drift, share = coast
     velocity = add_scaled(add_scaled(start, time, drift), share, u)
@@ -101,7 +106,7 @@ def glide_error(ball, motion, coast, q):
 
 @kernel
 def fit_glide(land, ball, motion, coast, q, turning, unwinding):
-    """Lay the segment of a glide that ends at the parameter `q`. Writes the ball's curve."""
+    """Fit the segment to the closed form up to the parameter `q`. Writes the curve and span."""
     normal = load(ball['normal'])
     r = land.ball.radius
     time, way, v1, u1 = glide_at(motion, coast, q)
@@ -112,10 +117,10 @@ def fit_glide(land, ball, motion, coast, q, turning, unwinding):
     _, drift, share = coast
     a0 = add_scaled(drift, share, du0)
     a1 = add_scaled(drift, share, du1)
-    # Where it slides, the spin follows velocity minus slip; where it rolls there is no slip.
+    # A sliding ball's spin is that of rolling at velocity minus slip; a rolling ball has no slip.
     keep = 1.0 if ball['phase'] == SLIDE else 0.0
     left = max(abs(turning) - unwinding * time, 0.0)
-    if abs(turning) - unwinding * time <= 1e-12 * abs(turning):
+    if abs(turning) - unwinding * time <= 1e-12 * abs(turning):  # rounding must not leave it turning
         left = 0.0
     sign = 1.0 if turning > 0.0 else -1.0
     winding = scale(-sign * unwinding if turning != 0.0 else 0.0, normal)

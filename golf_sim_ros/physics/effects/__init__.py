@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Effects: one file each, found by themselves; a scene gets those it calls for.
+"""Effects: one file each, discovered on import; a scene gets those that it needs.
 
 A file of this folder that defines ``record(scene)`` and ``idle(scene)`` is an effect, named after
-the file. ``record`` gives the effect's record for a scene; ``idle`` says why the scene can do
+the file. ``record`` gives the effect's record for a scene; ``idle`` gives the reason why the scene can do
 without it, or '' if it can't. An idle effect does not run and is not compiled in. Where the file
 defines ``dormant(scene)`` too, a record of the same type that does nothing, a compiled `World` keeps
-that instead: so one program serves every course, and nothing compiles when the effect awakes. A file
-with ``INSTEAD_OF``, names of effects, is another law for the same: a scene gets it only by name.
+that instead: so one program serves every course, and nothing compiles when the effect is switched on. A file
+with ``INSTEAD_OF``, names of effects, is another model of the same: a scene gets it only by name.
 Other packages add theirs with :func:`register_effect`.
 """
 from difflib import get_close_matches
@@ -21,7 +21,7 @@ from . import protocol
 
 
 class Scene(NamedTuple):
-    """What effects are chosen for: a course, how many balls, and the wind at 10 m [m/s]."""
+    """Scene that effects are chosen for: a course, the number of balls, and the wind at 10 m [m/s]."""
 
     course: NamedTuple
     balls: int = 1
@@ -29,7 +29,7 @@ class Scene(NamedTuple):
 
 
 class Effect(NamedTuple):
-    """A known effect: how to build its record, when a scene can do without, a record that sleeps.
+    """Known effect: how to build its record and its dormant record, and when a scene can do without it.
 
     ``instead_of``: names of the effects to which it is an alternative; such a one is never automatic.
     """
@@ -42,7 +42,7 @@ class Effect(NamedTuple):
 
 
 class Chosen(NamedTuple):
-    """Records by name of the effects that a scene gets; reasons of those left out.
+    """Effects that a scene gets, records by name; reasons of those left out.
 
     ``needless``: reasons of those that were asked for by name and that the scene can't have.
     """
@@ -53,11 +53,11 @@ class Chosen(NamedTuple):
 
     @property
     def records(self):
-        """Records of the effects that the scene gets: what has to run."""
+        """Records of the effects that the scene gets."""
         return tuple(self.on.values())
 
     def with_dormant(self, scene):
-        """`records`, and in its place a dormant one of each effect that has one and is off.
+        """`records`, with the dormant record, in its place, of each effect that has one and is off.
 
         The types are then the same for every scene, but for laws asked for by name.
         """
@@ -70,14 +70,14 @@ EFFECTS = {}
 
 
 def register_effect(name, record, idle, doc, dormant=None, instead_of=()):
-    """Make an effect known under `name`; see the module's docstring for the other parameters."""
+    """Register an effect as `name`; see the module's docstring for the other parameters."""
     if name in EFFECTS:
         raise ValueError(f'effect {name!r} is already registered')
     EFFECTS[name] = Effect(record, idle, doc, dormant, tuple(instead_of))
 
 
 def choose(names, scene):
-    """What `scene` gets, and why it does without the others.
+    """Effects that `scene` gets, and the reasons why it does without the others.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ def choose(names, scene):
 
 
 def check(names):
-    """Raise ValueError where `names` are not effects that can act together."""
+    """Check that `names` are effects that can act together; ValueError where they are not."""
     laws_of = {}
     for name in names:
         if name == 'auto':
@@ -126,7 +126,7 @@ def check(names):
 
 
 def needless(names, scene):
-    """Reasons of those of `names` that `scene` can't have, whatever wind may come, by name."""
+    """Reasons, by name, of those of `names` that `scene` can't have, whatever wind may come."""
     windy = scene._replace(wind=(1.0, 0.0, 0.0))
     reasons = {name: EFFECTS[name].idle(windy) for name in names}
     return {name: reason for name, reason in reasons.items() if reason}
@@ -143,7 +143,7 @@ def wind_at(effects, ground, position):
 
 @kernel
 def gravity_at(effects, position):
-    """Acceleration that acts on every ball at `position`."""
+    """Gravitational acceleration [m/s^2] of every ball at `position`."""
     total = ZERO
     for effect in literal_unroll(effects):
         total = add(total, protocol.gravity(effect, position))
@@ -152,14 +152,14 @@ def gravity_at(effects, position):
 
 @kernel
 def airflow(effects, ground, position, velocity, spin):
-    """`Flow` of the air around a flying ball."""
+    """`Flow` of the air around a ball in flight."""
     through_air = sub(velocity, wind_at(effects, ground, position))
     return protocol.Flow(through_air, length(through_air), spin, position, velocity)
 
 
 @kernel
 def flight_rates(effects, ground, position, velocity, spin):
-    """Acceleration and rate of change of spin of a flying ball."""
+    """Acceleration and angular acceleration of a ball in flight."""
     flow = airflow(effects, ground, position, velocity, spin)
     force = ZERO
     torque = ZERO
@@ -183,7 +183,7 @@ def sinking(effects, position, velocity):
 def longest_allowed_step(effects, ground, state, force, wanted):
     """Longest step [s], `wanted` at most, that can't overlook any effect.
 
-    Of a flying ball whose `state` is position, velocity and spin, and that `force` accelerates [m/s^2].
+    For a ball in flight whose `state` is position, velocity and spin, and its acceleration `force` [m/s^2].
     """
     flow = airflow(effects, ground, *state)
     for effect in literal_unroll(effects):
@@ -193,14 +193,14 @@ def longest_allowed_step(effects, ground, state, force, wanted):
 
 @kernel
 def set_wind(effects, wind):
-    """Let the air move with `wind` [m/s at 10 m] from now on. Writes into the effects' records."""
+    """Set the wind [m/s at 10 m]. Writes into the effects' records."""
     for effect in literal_unroll(effects):
         protocol.set_wind(effect, wind)
 
 
 @kernel
 def effective_normal(effects, normal, velocity, softness):
-    """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
+    """Effective contact normal of a ball that hits ground of `normal` and `softness` at `velocity`."""
     for effect in literal_unroll(effects):
         normal = protocol.contact_normal(effect, normal, velocity, softness)
     return normal

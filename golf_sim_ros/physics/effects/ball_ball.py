@@ -13,5 +13,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: where there is one ball."""
+    """Reason why `scene` does without the effect, a single ball, or ''."""
     return '' if scene.balls > 1 else 'one ball'

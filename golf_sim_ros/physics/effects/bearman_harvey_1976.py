@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Drag and lift after Bearman and Harvey (1976): their table, through which a C1 curve is laid."""
+"""Drag and lift after Bearman and Harvey (1976): their table, interpolated by a C1 curve."""
 from typing import NamedTuple
 
 import numpy as np
@@ -71,5 +71,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: in no air."""
+    """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

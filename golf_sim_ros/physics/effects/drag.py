@@ -8,8 +8,8 @@ from ..mechanics.vector import ZERO, dot, scale
 from ..properties import air
 from . import protocol
 
-CREEPING = 0.5  # m/s through the air: the speed below which it hardly matters where drag turns about
-NO_FLOW = 1e-18  # m^2/s^2: air that passes slower than the root of this does nothing
+CREEPING = 0.5  # m/s through the air: below this a reversal of drag hardly matters
+NO_FLOW = 1e-18  # m^2/s^2: below this square of airspeed there is no aerodynamic force
 
 
 class DragLaw(NamedTuple):
@@ -19,7 +19,7 @@ class DragLaw(NamedTuple):
     ``c = 1 / (1 + (Re / crisis_at)^4)``, ``b = 1 / (1 + (Re / slow_at)^4)``,
     ``h = q / (1 + q), q = (Re / high_at)^2``.
 
-    c is the drag crisis of a ball that hardly spins: below it the flow leaves the ball early. Fitted by
+    c is the drag crisis of a ball that hardly spins: below it the flow separates early. Fitted by
     tools/fit_aerodynamics.py to tour averages (PGA 2010s and 2023), a driver chart and wind-tunnel points
     together: Re of 5e4 to 2.5e5, S of 0 to 0.32, and what irons do up to 0.6; beyond, it only stays sensible.
     """
@@ -51,7 +51,7 @@ def drag_coefficient(law, ss, rr, flow=1.0):
 
     `ss` may be given times `flow`: that spares a division.
     """
-    # This is most of what a flight costs: squares take no roots, and no quotient waits for another.
+    # Most of the time of a flight is spent here: squares need no roots, and quotients are independent.
     high = law.high_at * law.high_at
     slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
     crisis = law.crisis_at * law.crisis_at * law.crisis_at * law.crisis_at
@@ -75,12 +75,12 @@ def _acceleration(effect, flow):
 
 @protocol.longest_step.register(Drag)
 def turning_about(effect, ground, flow, force, wanted):
-    """Longest step [s] that can't overlook how drag of the square of the speed turns about."""
+    """Longest step [s] that can't overlook where drag reverses, as where a throw straight up does."""
     return protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted) if effect.push > 0.0 else wanted
 
 
 def dynamic_push(course):
-    """rho A / (2 m) [1/m] of the course's ball in the course's air."""
+    """Factor rho A / (2 m) [1/m] of dynamic pressure, of the course's ball in the course's air."""
     ball = course.ball
     return 0.5 * air.density(course.air) * pi * ball.radius * ball.radius / ball.mass
 
@@ -97,7 +97,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: in no air."""
+    """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'
 
 

@@ -46,5 +46,5 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: in no air."""
+    """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

@@ -12,7 +12,7 @@ from . import protocol
 
 LEAF = np.dtype([('center', 'f8', 3), ('radius', 'f8'), ('low', 'f8'), ('high', 'f8'), ('is_sphere', 'i8'),
                  ('drag', 'f8')], align=True)
-FINE = 0.1  # of a body's radius: the longest step near it and in it
+FINE = 0.1  # of a body's radius: the longest way in a step near it and in it
 
 
 class Foliage(NamedTuple):
@@ -23,7 +23,7 @@ class Foliage(NamedTuple):
 
 @kernel
 def clearance(body, point):
-    """Distance of `point` from a body of leaves at least: 0 or less in it."""
+    """Lower bound on the distance of `point` from a body of leaves; 0 or less in it."""
     dx = point[0] - body['center'][0]
     dy = point[1] - body['center'][1]
     if body['is_sphere']:
@@ -71,7 +71,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: where nothing has leaves."""
+    """Reason why `scene` does without the effect, no leaves, or ''."""
     return '' if leafy(scene.course) else 'no leaves'
 
 

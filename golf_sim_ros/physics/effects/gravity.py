@@ -23,7 +23,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: never."""
+    """Reason why `scene` does without the effect: none, always ''."""
     return ''
 
 

@@ -8,7 +8,7 @@ from ..mechanics.vector import ZERO, cross, dot, scale
 from . import protocol
 from .drag import NO_FLOW, dynamic_push, reynolds_number
 
-BEND = 0.7  # of `early_at`: within so small a spin ratio of its zero the lift hardly bends
+BEND = 0.7  # of `early_at`: within this spin ratio of zero the lift is nearly linear
 
 
 class LiftLaw(NamedTuple):
@@ -68,7 +68,7 @@ def _acceleration(effect, flow):
 def _longest_step(effect, ground, flow, force, wanted):
     if effect.push == 0.0:
         return wanted
-    # Lift turns about where the velocity sweeps past the axis of spin.
+    # Lift reverses where the velocity passes the axis of spin.
     blunt = BEND * effect.law.early_at * flow.speed * flow.speed / effect.radius
     return protocol.step_to_alignment(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
 
@@ -80,7 +80,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: in no air."""
+    """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'
 
 

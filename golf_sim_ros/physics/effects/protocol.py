@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What an effect can say. An effect registers a body for each law it has a word in.
+"""Protocol of an effect: its laws. An effect registers a body for each law in which it takes part.
 
 Every effect is a record, a ``NamedTuple`` of floats: its type is chosen when the kernel compiles,
 its fields are free to change while running.
@@ -10,14 +10,14 @@ from typing import NamedTuple
 from ..jit import generic, kernel, shared
 from ..mechanics.vector import ZERO, dot
 
-BRIEF = 2e-3  # s: a step that the error control can be left to, however suddenly a law turns about
+BRIEF = 2e-3  # s: shorter steps are left to the error control, however suddenly a force reverses
 
 
 class Flow(NamedTuple):
-    """The air as a flying ball meets it.
+    """Air flow around a ball in flight.
 
     ``velocity`` and ``speed`` of the ball through the air [m/s]; ``spin`` [rad/s]; ``position``;
-    ``over_ground``: velocity as the ground sees it.
+    ``over_ground``: velocity relative to the ground.
     """
 
     velocity: tuple
@@ -35,13 +35,13 @@ def air_velocity(effect, ground, position):
 
 @generic
 def acceleration(effect, flow):
-    """Acceleration [m/s^2] of a flying ball by `effect` in `flow`."""
+    """Acceleration [m/s^2] of a ball in flight by `effect` in `flow`."""
     return ZERO
 
 
 @generic
 def spin_rate(effect, flow):
-    """Rate of change of spin [rad/s^2] of a flying ball by `effect` in `flow`."""
+    """Angular acceleration [rad/s^2] of a ball in flight by `effect` in `flow`."""
     return ZERO
 
 
@@ -56,12 +56,12 @@ def longest_step(effect, ground, flow, force, wanted):
 
 @kernel
 def step_to_alignment(arrow, change, blunt, wanted):
-    """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes through zero.
+    """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes near zero.
 
-    A law that follows its direction turns about at once there, within `blunt` of its length. To first
-    order the arrow is shortest after a while, or was so before, and the law bends within some width of that.
-    Where the step that is `wanted` is no longer than half of the former or than the latter, it will do: told
-    without division and root, for that is the rule.
+    A force along it reverses there all at once, within `blunt` of its length. To first order the arrow is
+    shortest some time ahead, or was so before, and the force changes within some width of that. A `wanted`
+    step no longer than half of that time, or than the width, is safe: this usual case is tested without
+    division and root.
     """
     turning = dot(change, change)
     closing = -dot(arrow, change)
@@ -75,7 +75,7 @@ def step_to_alignment(arrow, change, blunt, wanted):
 
 @shared
 def slowed(turning, closing, off, blunt, wanted):
-    """`step_to_alignment`, where it cuts the step; apart, or a root would be taken each time."""
+    """Step of `step_to_alignment` where it is cut; apart, or its root would be taken each time."""
     ahead = closing / turning
     width = sqrt((max(off - closing * ahead, 0.0) + blunt * blunt) / turning)
     return min(max(0.5 * abs(ahead), width, BRIEF), wanted)
@@ -89,16 +89,16 @@ def gravity(effect, position):
 
 @generic
 def under_water(effect, weight, velocity):
-    """Acceleration [m/s^2] by `effect` of a ball under water, beside its `weight`: that by gravity."""
+    """Acceleration [m/s^2] by `effect` of a ball under water, beside `weight`, that by gravity."""
     return ZERO
 
 
 @generic
 def contact_normal(effect, normal, velocity, softness):
-    """Normal that a ball of `velocity` meets on ground of `normal` and `softness`."""
+    """Effective contact normal of a ball that hits ground of `normal` and `softness` at `velocity`."""
     return normal
 
 
 @generic
 def set_wind(effect, wind):
-    """Let `effect` go on with another `wind` [m/s at 10 m]; of an effect that keeps the wind."""
+    """Set the `wind` [m/s at 10 m] of an `effect` that holds it. Writes into its record."""

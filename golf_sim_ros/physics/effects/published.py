@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the published laws of drag and lift share: coefficients become an acceleration."""
+"""Shared part of the published laws of drag and lift: from coefficients to an acceleration."""
 from math import sqrt
 
 from ..jit import kernel
@@ -14,7 +14,7 @@ FADE = 0.01
 
 @kernel
 def spin_ratio(radius, flow):
-    """Spin times radius over speed: what the published laws go by, of all the spin."""
+    """Spin ratio, spin times radius over speed, of the whole spin, as in the published laws."""
     return radius * length(flow.spin) / flow.speed
 
 
@@ -31,7 +31,7 @@ def drag_and_lift(push, flow, ratio, drag, lift):
 
 
 def spin_axis_terms(effect, ground, flow, force, wanted):
-    """Longest step [s] that can't overlook where drag or lift by a published law turns about."""
+    """Longest step [s] that can't overlook where drag or lift by a published law reverses."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
     wanted = protocol.step_to_alignment(cross(flow.spin, flow.velocity),
                                         cross(flow.spin, force), blunt, wanted)

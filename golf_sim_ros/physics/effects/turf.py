@@ -51,7 +51,7 @@ def _contact_normal(effect, normal, velocity, softness):
 
 @kernel
 def saturated(tilt, most):
-    """`most` tanh(`tilt` / `most`) to an absolute rounding error, in half the time."""
+    """Saturated tilt, `most` tanh(`tilt` / `most`), to an absolute rounding error, in half its time."""
     q = exp(-2.0 * tilt / most)
     return most * (1.0 - q) / (1.0 + q)
 
@@ -65,7 +65,7 @@ def steepness(velocity, normal):
 
 @kernel
 def tilted(normal, across, tilt):
-    """`normal` turned by `tilt` [rad] against `across`, a motion along the ground."""
+    """Normal that is `normal` turned by `tilt` [rad] against `across`, a motion along the ground."""
     return add(scale(cos(tilt), normal), scale(-sin(tilt) / length(across), across))
 
 
@@ -75,7 +75,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: where all ground is hard."""
+    """Reason why `scene` does without the effect, hard ground, or ''."""
     soft = any(shape.material.softness > 0 for shape in scene.course.ground)
     return '' if soft else 'all ground is hard'
 

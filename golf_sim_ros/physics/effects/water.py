@@ -40,7 +40,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: on dry land."""
+    """Reason why `scene` does without the effect, no water, or ''."""
     return '' if scene.course.water else 'no water'
 
 

@@ -11,27 +11,27 @@ from ..mechanics.vector import ZERO, store, scale, load
 from . import protocol
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
-LEAST_WIND = -1
-# A step ends at the latest where height over the ground, and the profile's roughness, has grown by so much of
-# itself: what a law does on its first centimetres would be over before any stage saw it.
+LEAST_WIND = -1  # law of no wind
+# A step ends at the latest where height over the ground, plus the profile's roughness, has changed by this
+# factor of itself: the steep part of the profile near the ground would be passed before any stage saw it.
 GROWTH = 2.0
-STEEP = 0.01  # m: the roughness where a profile has none
+STEEP = 0.01  # m: the roughness of a profile that has none
 
 
 class LogProfile(NamedTuple):
-    """u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0), z0 the `roughness` length [m]."""
+    """Logarithmic profile u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0), z0 the `roughness` length [m]."""
 
     roughness: float = 0.01
 
 
 class PowerProfile(NamedTuple):
-    """u = u10 (h / 10 m)^`exponent`."""
+    """Power law u = u10 (h / 10 m)^`exponent`."""
 
     exponent: float = 0.14
 
 
 class UniformProfile(NamedTuple):
-    """The same wind at every height."""
+    """Uniform profile: the same wind at every height."""
 
 
 class Wind(NamedTuple):
@@ -48,7 +48,7 @@ class Wind(NamedTuple):
 
 @kernel
 def share(effect, height):
-    """Wind at `height` [m] over that at 10 m."""
+    """Ratio of the wind at `height` [m] to that at 10 m."""
     if effect.law == 1:
         return effect.weight * log(1.0 + max(height, 0.0) / effect.parameter)
     if effect.law == 2:
@@ -100,7 +100,7 @@ def record(scene):
 
 
 def idle(scene):
-    """Why `scene` can do without: in still air."""
+    """Reason why `scene` does without the effect, still air, or ''."""
     return '' if any(scene.wind) else 'no wind'
 
 

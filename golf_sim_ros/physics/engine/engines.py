@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What runs a world: plain Python, which is there at once, or the compiled engine.
+"""Engines of a world: plain Python, which starts at once, or compiled code.
 
 Both run the same functions. Plain Python plays a few balls in a fifth of a core; for many balls, or many
 shots, compiled code takes a hundredth of that, and has to be compiled first, once a machine.
@@ -17,13 +17,13 @@ from .orientation import turn_orientations
 from .planner import put_down
 
 ENGINES = 'auto', 'python', 'compiled'
-ENGINE_VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # what 'auto' is in `World`, `simulate`, `simulate_many`
-WORTH_COMPILING = 10.0  # s that plain Python has taken: compiling takes about half a minute, once a machine
+ENGINE_VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # environment variable: what 'auto' means in `World`, `simulate`, ...
+WORTH_COMPILING = 10.0  # s of plain Python after which compiling pays: it takes half a minute, once a machine
 LOG = logging.getLogger('golf_sim_ros')
 
 
 class Engine(NamedTuple):
-    """The entries of the physics, and whether effects that are off stay there as dormant records."""
+    """Entries of the physics, and whether effects that are off are kept as dormant records."""
 
     name: str
     advance: Callable
@@ -37,17 +37,17 @@ PYTHON = Engine('python', advance, turn_orientations, put_down, False)
 
 @lru_cache(maxsize=None)
 def compiled_engine():
-    """The compiled `Engine`; `jit.Unavailable` where there is none."""
+    """Compiled `Engine`; raises `jit.Unavailable` where there is none."""
     return Engine('compiled', *map(jit.compiled, PYTHON[1:4]), True)
 
 
 def best(function):
-    """Machine code of an entry where numba is installed, else the function itself."""
+    """Compiled function of an entry where numba is installed, else the function itself."""
     return function if missing() else jit.compiled(function)
 
 
 def checked_engine(name):
-    """`name`, if it is that of an engine; for 'auto' what the variable GOLF_SIM_ROS_ENGINE says, if set.
+    """`name`, if an engine has it; for 'auto' the value of the variable GOLF_SIM_ROS_ENGINE, if set.
 
     Raises
     ------
@@ -62,15 +62,15 @@ def checked_engine(name):
 
 
 def prefer_compiled():
-    """Let 'auto' be the compiled engine in this process and its children, where there is one."""
+    """Make 'auto' the compiled engine in this process and its children, where there is one."""
     if not missing():
         os.environ.setdefault(ENGINE_VARIABLE, 'compiled')
 
 
 class Program:
-    """A combination of record types in this process: its build, and what plain Python has cost instead.
+    """Combination of record types in this process: its build, and what plain Python has cost instead.
 
-    `spent` [s] of processor time in plain Python, of worlds whose engine is 'auto'.
+    `spent`: processor time [s] in plain Python, of worlds whose engine is 'auto'.
     """
 
     known = {}  # by key
@@ -80,7 +80,7 @@ class Program:
 
     @classmethod
     def of(cls, key):
-        """The program of a `key`."""
+        """Program with that `key`."""
         return cls.known.setdefault(key, cls(key))
 
     @property
@@ -94,20 +94,20 @@ class Program:
         return self.build is not None and self.build.state == READY
 
     def built(self, urgent, function, args):
-        """Its `jit.build.Build`, begun now if nobody has: of all that ``function(*args)`` runs."""
+        """`jit.build.Build` of all that ``function(*args)`` runs, started now unless it has been before."""
         if self.build is None:
             self.build = Build(urgent, Part(self.key, function, args))
         return self.build
 
     def timed(self, function, *args):
-        """What ``function(*args)`` gives, its processor time counted as spent in plain Python."""
+        """Result of ``function(*args)``, whose processor time is added to `spent`."""
         began = thread_time()
         result = function(*args)
         self.spent += thread_time() - began
         return result
 
     def is_worth_compiling(self):
-        """Whether plain Python has taken so long that compiling is worth it; says once if that can't be."""
+        """Whether plain Python has taken so long that compiling pays; warns once if that is impossible."""
         if self.spent < WORTH_COMPILING or self.told:
             return False
         if missing():

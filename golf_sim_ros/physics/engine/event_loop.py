@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The engine on one page: detect, evolve, resolve.
+"""Event-driven engine on one page: detect, evolve, resolve.
 
-Every ball has a segment that is safe until its end. Advancing takes the ball whose segment
-ends first, brings it there, resolves what ended it, and lays its next segment; at last every ball is
-read at the time asked for. Nothing ever steps to a tick, so paths do not depend on ticks.
+Every ball has a segment that is safe until its end. The event loop takes the ball whose segment ends first,
+brings it there, resolves the event that ended it, and plans its next segment; at last every ball is read at
+the time asked for. Nothing ever steps to a tick, so paths do not depend on ticks.
 """
 import numpy as np
 
-from ..collision import ball_gap, ball_interactions  # noqa: F401  (they say what balls do to each other)
+from ..collision import ball_gap, ball_interactions  # noqa: F401  (ball_gap registers laws of ball on ball)
 from ..collision.workspace import INVOLVED, next_event_ball
 from ..contact.contact_state import choose_contact_mode
 from ..effects import set_wind
 from ..geometry import surfaces
 from ..jit import borrowed, cycles, entry, kernel, shared
 from ..mechanics.vector import ZERO, store, unit, load
-from ..response import ball_impact, time_stepping  # noqa: F401  (they say what balls do to each other)
+from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws of ball on ball)
 from ..response.contact_set import clear_set, add_to_set
 from ..response.ground_impact import cross_border, resolve_ground_impact
 from ..response.water_impact import sink, leave_water, has_ended_in_water, resolve_water_impact
@@ -30,7 +30,7 @@ from .planner import (LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_nex
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'
 IN_FLIGHT, IN_CONTACT, IN_BROAD_PHASE = range(3)
-EVENTS_A_BALL = 3  # that one segment's end can log, but for impacts of balls
+EVENTS_A_BALL = 3  # events that one segment's end can log, beside impacts of balls
 
 
 @entry
@@ -38,14 +38,14 @@ def advance(model, balls, until, work, log):
     """Advance `balls` to the time `until` [s]. Writes balls, work and log.
 
     Returns DONE, or LOG_FULL when `log` must be emptied before going on: it is full, or a shot has ended,
-    which is to be told before anything else happens to its ball.
+    which is to be reported before anything else happens to its ball.
     """
     return run_events(borrowed(model), borrowed(balls), until, borrowed(work), borrowed(log))
 
 
 @shared
 def run_events(model, balls, until, work, log):
-    """`advance`, of borrowed records."""
+    """`advance`, with borrowed records."""
     for i in range(len(balls)):
         work.segment_ends[i] = balls[i]['end']
     ball_interactions.prepare_broad_phase(work, balls, model.land.ball.radius)
@@ -54,7 +54,7 @@ def run_events(model, balls, until, work, log):
         i = next_event_ball(work, until)
         if i < 0:
             break
-        if log.count[1] or 2 * log.count[0] > len(log.events):
+        if log.count[1] or 2 * log.count[0] > len(log.events):  # half of it: one event can log many impacts
             return LOG_FULL
         now = balls[i]['end']
         since = count_cycles(work, IN_BROAD_PHASE, since)
@@ -66,6 +66,7 @@ def run_events(model, balls, until, work, log):
             end_if_over(model, balls[work.involved[k]], work.involved[k], now, log)
             plan_or_fail(model, balls[work.involved[k]], work.involved[k], now, log)
             since = note_segment(balls, work.involved[k], model.land.ball.radius, work, since)
+        # All involved balls are planned before any is tested against others, whose segments must be current.
         for k in range(work.count[INVOLVED]):
             limit_by_balls(balls, work.involved[k], model.land.ball.radius, now, work)
         clear_set(work)
@@ -76,9 +77,9 @@ def run_events(model, balls, until, work, log):
 
 @kernel
 def resolve(model, balls, i, work, log):
-    """Bring ball `i` to the end of its segment and let happen what ends it.
+    """Bring ball `i` to the end of its segment and resolve the event there. Writes motion, phase, contact.
 
-    Other balls that this moves become involved.
+    Other balls that this moves become involved. Impacts are logged.
     """
     ball = balls[i]
     now = ball['end']
@@ -93,12 +94,12 @@ def resolve(model, balls, i, work, log):
         ball_interactions.wake(work, balls, model.land.ball.radius, now)
     elif ending == WATER_ENTRY:
         resolve_water_impact(model.land, ball, i, now, log)
-    elif ball['water'] > 0 and ending == GROUND_IMPACT:
+    elif ball['water'] > 0 and ending == GROUND_IMPACT:  # no bounces under water
         sink(ball)
     elif ending == GROUND_IMPACT:
         before = ball['micro_bounce_end']
         resolve_ground_impact(model.land, balls, i, now, work, log)
-        if ball['micro_bounce_end'] > max(before, now):
+        if ball['micro_bounce_end'] > max(before, now):  # micro-bounces have begun, by this impact
             apply_air_to_micro_bounces(model, ball, now)
     elif ending == BALL_IMPACT:
         ball_interactions.resolve_ball_impact(work, model.land, balls, i, now, log)
@@ -122,7 +123,7 @@ def resolve(model, balls, i, work, log):
 
 @kernel
 def end_if_over(model, ball, number, now, log):
-    """End the shot of a ball that has stopped, is lost, or has been on its way for too long."""
+    """End the shot of a ball that has stopped, is lost, or is over time. Writes phase, shot; logs it."""
     if not is_finite(ball):
         fail(ball, number, now, NOT_FINITE, log)
     before = ball['phase']
@@ -130,12 +131,13 @@ def end_if_over(model, ball, number, now, log):
         ball['phase'] = OUT
     elif has_ended_in_water(model.land, ball):
         sink(ball)
-    elif before == REST and is_in_hole(model, ball):
+    elif before == REST and is_in_hole(model, ball):  # no speed of capture: it is holed once it rests there
         ball['phase'] = HOLED
     if is_out(model.land.ground, ball, model.land.ball.radius):
         ball['phase'] = OUT
     if ball['phase'] == OUT and before != OUT:
         log_out_of_bounds(ball, number, now, log)
+    # A ball set off by another has no shot and so no result: only its loss is logged.
     is_lost = ball['phase'] == OUT or ball['phase'] == WATER
     if is_lost and ball['moved_by_ball'] and not ball['shot_active']:
         ball['moved_by_ball'] = 0
@@ -146,18 +148,21 @@ def end_if_over(model, ball, number, now, log):
 
 @kernel
 def plan_or_fail(model, ball, number, now, log):
-    """Lay the ball's next segment; if it can't go on, its shot fails. Writes segment."""
+    """Plan the ball's next segment, or fail its shot if it can't go on. Writes segment, phase."""
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):
         why = check_segment(ball, now)
         if why:
             fail(ball, number, now, why, log)
-            plan_next_segment(model, ball, now)
+            plan_next_segment(model, ball, now)  # at rest
 
 
 @kernel
 def note_segment(balls, i, radius, work, since):
-    """Take note of ball `i`'s new segment. Writes work. Returns the cycles at its end; see `count_cycles`."""
+    """Enter ball `i`'s new segment into the workspace. Writes segment_ends, the tree, spent.
+
+    Takes and returns cycles as `count_cycles` does.
+    """
     since = count_cycles(work, stage_of(balls[i]), since)
     work.segment_ends[i] = balls[i]['end']
     ball_interactions.update_tree(work, balls, i, radius)
@@ -172,7 +177,7 @@ def stage_of(ball):
 
 @kernel
 def count_cycles(work, stage, since):
-    """Book the cycles from `since` until now on a stage, if somebody asks. Returns now. Writes spent."""
+    """Cycles now; those from `since` on are added to a stage, if cycles are measured. Writes spent."""
     if len(work.spent) == 0:
         return since
     now = cycles()
@@ -188,7 +193,10 @@ def cycles_now():
 
 @kernel
 def limit_by_balls(balls, i, radius, now, work):
-    """End ball `i`'s segment where it meets another ball. Writes end, ending, target."""
+    """End ball `i`'s segment where it hits another ball. Writes end, ending, target, segment_ends, the tree.
+
+    A ball at rest ends the segments of others instead.
+    """
     ball = balls[i]
     if moves(ball['phase']):
         time, other, hit = ball_interactions.first_ball_contact(work, balls, i, radius, now)
@@ -228,10 +236,10 @@ def is_in_hole(model, ball):
 
 @entry
 def play_all(model, ball, strikes, gusts, work, log):
-    """Play shots one after the other, each from the state in `ball`. Returns their ends, an `ENDED` array.
+    """Play shots one after the other, each from the state in `ball`; their ends, an `ENDED` array.
 
     `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
-    the strike, the first 0, and the wind from then on; `work` and `log` are scratch.
+    the strike, the first 0, and the wind from then on. Overwrites `work` and `log`.
     """
     model = borrowed(model)
     work = borrowed(work)
@@ -250,6 +258,7 @@ def play_all(model, ball, strikes, gusts, work, log):
         gust = 1
         while one[0]['shot_active']:
             log.count[:] = 0
+            # After the last gust up to a time by which every shot has ended.
             until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
             if run_events(model, one, until, work, log) == DONE and gust < len(gusts):
                 set_wind(model.effects, load(gusts[gust, 1:4]))
@@ -261,7 +270,10 @@ def play_all(model, ball, strikes, gusts, work, log):
 
 @kernel
 def end_now(ball, now):
-    """End a flying ball's segment at `now`: its surroundings have changed. Writes end, ending."""
+    """End a flying ball's segment at `now`, since its surroundings have changed.
+
+    Writes end, ending, last_stage_time: the last stage holds rates in the old surroundings.
+    """
     if ball['phase'] == FLIGHT:
         ball['end'] = now
         ball['ending'] = STEP_END

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far a ball has turned, for those who draw it."""
+"""Orientations of balls as quaternions, integrated from their spin: for display only."""
 from math import cos, sin, sqrt
 
 from ..jit import entry
@@ -10,15 +10,15 @@ UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 @entry
 def turn_orientations(orientations, balls, time):
-    """Let the `balls` that move turn for `time` [s] with their present spin.
+    """Turn the orientations of the `balls` that move by `time` [s] of their present spin.
 
-    Writes orientations, (n, 4), quaternions x, y, z, w: products of the turn and what they were, brought
-    back to unit length.
+    Writes orientations, (n, 4), quaternions x, y, z, w: products of the rotation and what they were,
+    normalised again.
     """
     for i in range(len(balls)):
         p, q, r = balls[i]['spin']
         rate = sqrt(p * p + q * q + r * r)
-        if rate > 0.0 and moves(balls[i]['phase']):
+        if rate > 0.0 and moves(balls[i]['phase']):  # exact for constant spin, however long the time is
             part, d = sin(0.5 * rate * time) / rate, cos(0.5 * rate * time)
             a, b, c = part * p, part * q, part * r
             x, y, z, w = orientations[i]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Laying a ball's next segment: how it moves on, and up to where that is safe."""
+"""Planner of a ball's next segment: how it moves on, and up to which time that is safe."""
 from math import inf
 
 from ..collision.ball_gap import within_contact_reach
@@ -25,16 +25,19 @@ from ..trajectory import segment
 from ..trajectory.equations_of_motion import LEAST_SPEED
 
 LONGEST_SHOT = 300.0  # s
-MANY_ZERO_LENGTH = 100  # segments of no length, one after the other: every second one is let go for a MOMENT,
-MOMENT = 1e-9  # s, and if that goes on for longer and longer ones, up to what a path may be off
-LEAST_STRAY = 1.5e-7  # m: or this
-LEAST_PRESS = 0.1  # of its weight: what lift leaves of it, at least, while a ball's last bounces go on
-SINKING_STEP = 0.02  # s: so often a sinking ball is asked whether it has come far enough
+MANY_ZERO_LENGTH = 100  # segments of zero length in a row, after which every second one lasts for a MOMENT,
+MOMENT = 1e-9  # s, growing if that goes on until the ball may move by the limit on a path's error,
+LEAST_STRAY = 1.5e-7  # m, or by this
+LEAST_PRESS = 0.1  # of the weight: the least that lift leaves of it during micro-bounces
+SINKING_STEP = 0.02  # s: longest segment under water, at whose end the ball may turn out to have sunk
 
 
 @kernel
 def plan_next_segment(model, ball, now):
-    """Lay the ball's next segment, from its state at `now`. Writes segment, begin, end, ending."""
+    """Plan the ball's next segment from its state at `now`, up to its first event.
+
+    Writes begin, end, ending, target and the curve; support, contact and phase where those change.
+    """
     ball['begin'] = now
     if not moves(ball['phase']):
         segment.stay_in_place(ball)
@@ -52,6 +55,7 @@ def plan_next_segment(model, ball, now):
             straight_segment(ball, next_step_time(now) - now)
         else:
             step(model, ball)
+    # A wedged or time-stepped ball moves as in flight; its contacts are solved at the step's end.
     until = ball['span']
     if ball['time_stepping']:
         on = WEDGED
@@ -59,7 +63,7 @@ def plan_next_segment(model, ball, now):
     elif is_wedged(ball):
         on = WEDGED
         until = min(until, wedged_step_length(ball))
-    # Borders first: on a mesh the next one is near, and contacts beyond it need not be looked for.
+    # Borders first: on a mesh the next one is near, and contacts beyond it need no search.
     crosses = False
     if on == ON_FLAT or on == ON_CURVE:
         until, crosses = first_border_crossing(model.land.ground, ball, model.land.ball.radius, until)
@@ -74,6 +78,7 @@ def plan_next_segment(model, ball, now):
         ball['ending'] = BORDER_CROSSING
     if until < ball['span'] and ball['ending'] != GROUND_IMPACT and ball['ending'] != BORDER_CROSSING:
         ball['ending'] = STEP_END
+    # Water last: it needs no search beyond the other events.
     if ball['water'] > 0:
         if until > SINKING_STEP:
             until = SINKING_STEP
@@ -88,10 +93,11 @@ def plan_next_segment(model, ball, now):
 
 @kernel
 def end_segment(model, ball, now, until):
-    """Let the segment end after `until`, or when time ends it. Writes end, ending, zero_length_segments."""
+    """End the segment `until` after `now`, or at a time limit. Writes end, ending, zero_length_segments."""
     ball['end'] = now + max(until, 0.0)
     if ball['time_stepping'] and ball['ending'] == STEP_END and ball['end'] > next_step_time(now) - 1e-9:
-        ball['end'] = next_step_time(now)  # the same number for all
+        ball['end'] = next_step_time(now)  # to the bit: all time-stepped balls are solved at one instant
+    # Events at one instant that follow each other without end would stop time: at last it is let pass.
     ball['zero_length_segments'] = ball['zero_length_segments'] + 1 if ball['end'] <= now else 0
     if ball['zero_length_segments'] > MANY_ZERO_LENGTH and ball['zero_length_segments'] % 2 == 0:
         times = ball['zero_length_segments'] - MANY_ZERO_LENGTH
@@ -105,7 +111,10 @@ def end_segment(model, ball, now, until):
 
 @shared
 def contact_segment(model, ball, now):
-    """Lay a segment of a ball in contact, and say what it is on; it may turn out to lift off."""
+    """Plan a segment of a ball in contact; what it is on, such as ON_FLAT. Writes curve, contact, phase.
+
+    The ball may turn out to lift off.
+    """
     land = model.land
     is_flat = surfaces.flat_under(land.ground, ball['support'], load(ball['position']))
     if is_flat and not flat_ground_goes_on(land, ball):
@@ -115,7 +124,7 @@ def contact_segment(model, ball, now):
     ahead = unit(load(ball['velocity']), ZERO)
     _, normal = surfaces.under(land.ground, ball['support'], load(ball['position']), ahead)
     store(ball['normal'], normal)
-    if flat_ground_goes_on(land, ball):
+    if flat_ground_goes_on(land, ball):  # in closed form
         plane_segment(land, ball, now)
         return ON_FLAT
     ball['material'] = contact_material_number(land, ball, ball['support'], normal)
@@ -125,9 +134,9 @@ def contact_segment(model, ball, now):
 
 @shared
 def apply_air_to_micro_bounces(model, ball, now):
-    """Let the air act on bounces too small to follow. Writes tail and spin.
+    """Apply the air to micro-bounces. Writes micro_bounce_end, micro_bounce_load, micro_bounce_air, spin.
 
-    It brakes and turns all the while; where it lifts, the bounces last longer and press less.
+    Drag and torque act for their whole duration; lift makes them last longer and press less.
     """
     place = load(ball['position'])
     normal = load(ball['normal'])
@@ -147,7 +156,7 @@ def apply_air_to_micro_bounces(model, ball, now):
 
 @kernel
 def flat_ground_goes_on(land, ball):
-    """Whether flat ground goes on under the ball right where it is heading."""
+    """Whether flat ground continues under the ball where it is heading."""
     ahead = add_scaled(load(ball['position']), surfaces.LOOK_AHEAD, heading(land, ball))
     return (surfaces.flat_under(land.ground, ball['support'], ahead)
             and surfaces.touchable(land.ground, ball['support'], ahead))
@@ -155,7 +164,7 @@ def flat_ground_goes_on(land, ball):
 
 @kernel
 def launch(model, ball, now):
-    """Decide how a ball sets off from its state: in the air, or along the ground under it."""
+    """Choose whether a ball sets off in flight or along the ground. Writes phase, motion, contact."""
     ball['step'] = 0.0
     ball['rapid_impacts'] = 0
     ball['time_stepping'] = ball['sleeps_on_ball'] = 0
@@ -172,14 +181,15 @@ def launch(model, ball, now):
 def put_down(model, ball, position, depth):
     """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
 
-    Writes position, support and normal; the ball is at rest. Returns whether it touches anything,
-    how deep [m] it lies in the ground, and whether it is in water.
+    Writes motion, support, material and normal, and the segment; the ball is at rest. Returns whether it
+    touches anything, how deep [m] it lies in the ground, and whether it is in water.
     """
     model = borrowed(model)
     store(ball['position'], position)
     store(ball['velocity'], ZERO)
     store(ball['spin'], ZERO)
     if depth > 0.0:
+        # A straight segment: ground is found as by a ball in flight.
         way = (0.0, 0.0, -depth)
         ball['span'] = 1.0
         store(ball['origin'], position)
@@ -207,7 +217,7 @@ def read_segment(ball, now):
 
 @kernel
 def stop_slip(model, ball):
-    """Give the ball the spin of rolling. Writes spin."""
+    """Give the ball exactly the spin of rolling, at the event that ends its slip. Writes spin, phase."""
     normal = load(ball['normal'])
     turning = dot(load(ball['spin']), normal)
     rolling = scale(1.0 / model.land.ball.radius, cross(normal, load(ball['velocity'])))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Ground: a file that has ``SHAPES`` and ``build`` is a kind of ground, found by itself.
+"""Ground: a file that has ``SHAPES`` and ``build`` is a kind of ground, discovered on import.
 
 ``SHAPES`` are the record types that a course may hold, ``build(shapes, material_number)`` turns
 those of a course into one record of arrays, ``plan(shape)`` gives the outlines of a shape in plan,

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A surface through heights on a grid: the bicubic spline, in Hermite's form cell by cell.
+"""Bicubic spline through heights on a grid, in Hermite form cell by cell.
 
-Its second derivatives are continuous, unlike those of a bicubic made of local slopes: curvature is what
-presses a rolling ball, so the integrators keep their order across the seams of cells. The ends are natural
-(no bending across the outline). Heights of a tilted plane give that plane.
+Its second derivatives are continuous, unlike those of a bicubic of local slopes: curvature decides the normal
+force on a rolling ball, so integrators keep their order across the seams of cells. Boundary conditions are
+natural (no curvature across the outline). Heights of a tilted plane give that plane.
 """
 from math import floor
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from ..jit import kernel, shared
 
-AT_ONCE = 64  # rows of cells that are bounded at once: on a map of 1000 x 1000 that takes some 50 MB
+AT_ONCE = 64  # rows of cells that are bounded at once: on a map of 1000 x 1000 those take some 50 MB
 
 GRID = np.dtype([
     ('origin', 'f8', 2), ('spacing', 'f8'), ('nx', 'i8'), ('ny', 'i8'), ('first_node', 'i8'),
@@ -22,7 +22,8 @@ GRID = np.dtype([
 def slopes(values):
     """Slopes, per grid step, of the natural cubic splines through the columns of `values`.
 
-    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends 2 s[0] + s[1] = 3 (y[1] - y[0]).
+    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends 2 s[0] + s[1] = 3 (y[1] - y[0]):
+    a tridiagonal system, by Thomas's algorithm.
     """
     n = len(values)
     rise = np.diff(values, axis=0)
@@ -39,7 +40,7 @@ def slopes(values):
 
 
 def nodes(heights):
-    """Heights and their derivatives by x, by y and by both, per grid step: (ny, nx, 4)."""
+    """Node values: heights and their derivatives by x, by y and by both, per grid step: (ny, nx, 4)."""
     by_x = slopes(heights.T).T
     return np.stack((heights, by_x, slopes(heights), slopes(by_x)), -1)
 
@@ -48,7 +49,7 @@ def bounds(at_nodes, spacing):
     """Bounds on height [m] and curvature [1/m] over every cell: (ny - 1, nx - 1, 4).
 
     In order: least height, greatest height, greatest upward curvature (0 where there is none), greatest
-    curvature of either sign. They hold for sure: they are those of Bernstein's coefficients.
+    curvature of either sign. They are rigorous: those of Bernstein coefficients.
     """
     return np.concatenate([_bounds(at_nodes[j:j + AT_ONCE + 1], spacing)
                            for j in range(0, len(at_nodes) - 1, AT_ONCE)])
@@ -75,13 +76,13 @@ def _bounds(at, spacing):
 
 
 def _greatest(xx, yy, xy):
-    """Greatest eigenvalue of a symmetric matrix: it grows with each of these."""
+    """Greatest eigenvalue of a symmetric matrix: it grows with each entry, so bounds give a bound."""
     return 0.5 * (xx + yy) + np.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
 
 
 @kernel
 def hermite(start, slope, end, end_slope, t):
-    """Value, first and second derivative at `t` of a cubic from 0 to 1."""
+    """Value, first and second derivative at `t` of a cubic Hermite curve over 0 to 1."""
     rise = end - start
     c2 = 3.0 * rise - 2.0 * slope - end_slope
     c3 = slope + end_slope - 2.0 * rise

@@ -1,28 +1,28 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The place of a bicubic surface that is nearest to a point, within a rectangle in plan.
+"""Closest point of a bicubic surface to a point, within a rectangle in plan.
 
-Newton's method on half the squared distance; what lies on the rectangle's border, and would be nearer beyond,
-stays there. Coordinates are metres from the grid's origin.
+Newton's method with box constraints on half the squared distance: a coordinate at the rectangle's border, and
+driven over it, stays there (active set). Coordinates are metres from the grid's origin.
 """
 from ..jit import kernel, shared
 from .bicubic import bicubic
 
 MOST_NEWTON_STEPS = 60
-CONVERGED_STEP = 1e-13  # of the spacing: steps shorter than this change nothing
-SURE = 1e-6  # of the spacing: where a step is so short, Newton's method is left alone
-START_SAMPLES = 5  # a side, to start from where there may be several nearest places
+CONVERGED_STEP = 1e-13  # of the spacing: shorter steps change nothing
+SURE = 1e-6  # of the spacing: shorter steps are taken without line search, whose test would be rounding
+START_SAMPLES = 5  # a side, to start from where there may be several local minima
 NO_SAMPLES = (1e300, 1e300, 1e300, 1e300, 1e300)
 
 
 @kernel
 def held(x, low, high, pull):
-    """Whether a coordinate is at a border that `pull`, the slope of the distance there, drives it over."""
+    """Whether a coordinate is at a bound over which `pull`, the derivative there, drives it: active."""
     return x <= low and pull >= 0.0 or x >= high and pull <= 0.0
 
 
 @shared
 def newton(a, b, c, gx, gy, fixed_x, fixed_y):
-    """Step from slopes `gx`, `gy` with second derivatives `a`, `b`, `c`; a fixed coordinate stays."""
+    """Newton step for the gradient `gx`, `gy` and the Hessian `a`, `b`, `c`; a fixed coordinate stays."""
     if fixed_x and fixed_y:
         return 0.0, 0.0
     if fixed_x:
@@ -45,7 +45,7 @@ def share_within(x, step, low, high):
 
 @kernel
 def half_square(point, x, y, z):
-    """Half the squared distance."""
+    """Half the squared distance of `point` from x, y, z."""
     dx = x - point[0]
     dy = y - point[1]
     dz = z - point[2]
@@ -54,7 +54,7 @@ def half_square(point, x, y, z):
 
 @kernel
 def curvatures(point, at):
-    """Second derivatives of half the squared distance by xx, xy and yy."""
+    """Hessian of half the squared distance: by xx, xy and yy."""
     z, zx, zy, zxx, zxy, zyy = at
     up = z - point[2]
     return 1.0 + zx * zx + up * zxx, zx * zy + up * zxy, 1.0 + zy * zy + up * zyy
@@ -62,14 +62,14 @@ def curvatures(point, at):
 
 @kernel
 def pulls(point, x, y, at):
-    """Slopes of half the squared distance by x and y."""
+    """Gradient of half the squared distance, by x and y."""
     up = at[0] - point[2]
     return x - point[0] + up * at[1], y - point[1] + up * at[2]
 
 
 @shared
 def descend(table, grid, box, x, y, point):
-    """A nearest place to `point` downhill from `x`, `y`, and `bicubic` there."""
+    """Local minimum of the distance from `point`, downhill from `x`, `y`, and `bicubic` there."""
     x0, y0, x1, y1 = box
     size = grid['spacing']
     at = bicubic(table, grid, x, y)
@@ -80,7 +80,7 @@ def descend(table, grid, box, x, y, point):
         a, b, c = curvatures(point, at)
         sure = (fixed_x or a > 0.0) and (fixed_y or c > 0.0)
         if not sure or not (fixed_x or fixed_y or a * c - b * b > 0.01 * a * c):
-            a = 1.0 + at[1] * at[1]  # no minimum is near: downhill as if the surface were flat
+            a = 1.0 + at[1] * at[1]  # not positive definite: Gauss-Newton, as if the surface were flat
             b = at[1] * at[2]
             c = 1.0 + at[2] * at[2]
         dx, dy = newton(a, b, c, gx, gy, fixed_x, fixed_y)
@@ -91,6 +91,7 @@ def descend(table, grid, box, x, y, point):
         if abs(dx) + abs(dy) <= CONVERGED_STEP * size:
             break
         share = min(share_within(x, dx, x0, x1), share_within(y, dy, y0, y1))
+        # Backtracking line search with Armijo's condition.
         before = half_square(point, x, y, at[0])
         falling = gx * dx + gy * dy
         for _ in range(30):
@@ -111,7 +112,7 @@ def descend(table, grid, box, x, y, point):
 
 @kernel
 def onto(x, low, high, size):
-    """`x` between `low` and `high`, exactly on one that is as good as reached."""
+    """Clamp `x` between `low` and `high`, and snap it to one that is reached but for rounding."""
     if x - low < CONVERGED_STEP * size:
         return low
     if high - x < CONVERGED_STEP * size:
@@ -121,10 +122,10 @@ def onto(x, low, high, size):
 
 @shared
 def closest_point(table, grid, box, bend, point):
-    """Nearest place to `point` in the rectangle `box`, and `bicubic` there.
+    """Closest point of the surface to `point` in the rectangle `box`, and `bicubic` there.
 
-    Where `bend`, a product of curvature and height, is below 1, there is but one; else it is looked for
-    from every sample that lies nearer than those around it.
+    Where `bend`, a product of curvature and height, is below 1, the distance has one minimum; else it is
+    searched from every sample that is nearer than its neighbours.
     """
     x0, y0, x1, y1 = box
     if bend < 1.0:
@@ -157,7 +158,7 @@ def closest_point(table, grid, box, bend, point):
 
 @shared
 def samples(table, grid, box, point, i):
-    """Half the squared distances of `point` from the places of row `i` of the samples."""
+    """Half the squared distances of `point` from row `i` of the samples, as a tuple."""
     x0, y0, x1, y1 = box
     x = x0 + (x1 - x0) * i / (START_SAMPLES - 1.0)
     y = y1 - y0
@@ -170,5 +171,5 @@ def samples(table, grid, box, point, i):
 
 @shared
 def sample(table, grid, point, x, y):
-    """Half the squared distance of `point` from the place at `x`, `y`."""
+    """Half the squared distance of `point` from the surface at `x`, `y`."""
     return half_square(point, x, y, bicubic(table, grid, x, y)[0])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The hole: a rim that follows the ground around it, an upright wall below, a level bottom.
+"""Cup of the hole: a rim that follows the ground around it, an upright wall below, a level bottom.
 
-Parts come in pairs: the side, rim and wall in one, seen from within and above; and the bottom. ::
+Parts come in pairs: the side, rim and wall in one, hit from within and above; and the bottom. ::
 
     ground ____.  rim                .____       z(phi) = a0 + a1 cos + b1 sin + a2 cos 2 phi + b2 sin 2 phi
                |\\                   /|
@@ -24,7 +24,7 @@ from .polygon import Circle
 RADIUS = 0.054  # m: Rules of Golf, definition of hole: 108 mm across
 DEPTH = 0.1016  # m: and at least that deep
 CUP_SAMPLES = 64  # of the ground's height around the rim
-UNEVEN = 0.005  # m: ground that strays farther from the rim's curve is no place for a hole
+UNEVEN = 0.005  # m: where the ground deviates more from the rim's curve there can be no hole
 MOST_CUP_STEPS = 30  # of Newton's method
 MOST_CUP_TURN = 0.3  # rad in one of them
 
@@ -38,7 +38,7 @@ CUPS = np.dtype([
 
 
 class Cup(NamedTuple):
-    """A hole of `radius` around `x`, `y`, its bottom `depth` below the lowest of the rim [m].
+    """Hole of `radius` around `x`, `y`, its bottom `depth` below the lowest of the rim [m].
 
     `rim` holds a0, a1, b1, a2, b2 of the rim's height; `side` is the material of rim and wall.
     """
@@ -72,6 +72,8 @@ def cup_in(ground, x, y, names, material):
     found = [surfaces.look_down(ground, x + RADIUS * cos(a), y + RADIUS * sin(a)) for a in angles]
     if any(part < 0 for _, part, _ in found):
         raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round')
+    # Least squares of the Fourier series up to the second order: it is exact for a tilted plane, which is the
+    # first, and follows a curved green by the second.
     z = np.array([height for height, _, _ in found])
     waves = np.array([np.ones(CUP_SAMPLES), np.cos(angles), np.sin(angles),
                       np.cos(2 * angles), np.sin(2 * angles)])
@@ -82,14 +84,14 @@ def cup_in(ground, x, y, names, material):
 
 
 def heights_of_rim(cup):
-    """Bounds of the height of a cup's rim, the exact ones where it lies in a plane."""
+    """Bounds on the height of a cup's rim, exact where the rim lies in a plane."""
     a0, a1, b1, a2, b2 = cup.rim
     reach = hypot(a1, b1) + hypot(a2, b2)
     return a0 - reach, a0 + reach
 
 
 def opening(cup):
-    """x, y, radius, least and greatest height of the rim, height of the bottom: see `Ground.hole`."""
+    """Opening of a cup, as in `Ground.hole`: x, y, radius, bounds of the rim's height, bottom's height."""
     lowest, highest = heights_of_rim(cup)
     return cup.x, cup.y, cup.radius, lowest, highest, lowest - cup.depth
 
@@ -99,6 +101,7 @@ def build(shapes, material_number):
     rows = []
     for cup in shapes:
         x, y, radius, _, highest, bottom = opening(cup)
+        # Curvature of the rim as a curve in space: |second derivative| over radius^2, at most.
         _, a1, b1, a2, b2 = cup.rim
         waving = hypot(a1, b1) + 4.0 * hypot(a2, b2)
         rows.append(((x, y), radius, cup.rim, bottom, hypot(radius, waving) / radius ** 2,
@@ -108,12 +111,12 @@ def build(shapes, material_number):
 
 
 def plan(shape):
-    """Its rim, across which the ground ends."""
+    """Outline in plan: the rim, across which the ground ends."""
     return [Circle(shape.x, shape.y, shape.radius)]
 
 
 def heights(shape):
-    """Height of the bottom, and the greatest of the rim."""
+    """Height of the bottom, and greatest height of the rim."""
     _, _, _, _, highest, bottom = opening(shape)
     return bottom, highest
 
@@ -127,7 +130,7 @@ def rim_height(cup, c, s):
 
 @kernel
 def rim_at(cup, angle):
-    """Place of the rim at `angle`, and its first and second derivative by it."""
+    """Point of the rim at `angle`, and its first and second derivative by the angle."""
     c = cos(angle)
     s = sin(angle)
     r = cup['radius']
@@ -141,7 +144,7 @@ def rim_at(cup, angle):
 
 @kernel
 def first_guess(cup, point):
-    """Angle near that of the rim's nearest place: the point's own, near the axis the best of eight."""
+    """Initial guess of the angle of the rim's nearest point: that of `point`, or the best of eight."""
     dx = point[0] - cup['center'][0]
     dy = point[1] - cup['center'][1]
     best = atan2(dy, dx)
@@ -159,14 +162,14 @@ def first_guess(cup, point):
 
 @kernel
 def nearest_on_rim(cup, point):
-    """Angle of the rim's place nearest to `point`: Newton's method on the distance's square."""
+    """Angle of the rim's point nearest to `point`, by Newton's method on half the squared distance."""
     angle = first_guess(cup, point)
     for _ in range(MOST_CUP_STEPS):
         place, ahead, bend = rim_at(cup, angle)
         offset = sub(place, point)
         fall = -dot(ahead, offset)
         rise = dot(ahead, ahead) + dot(bend, offset)
-        # Where it bends the wrong way, as far downhill as allowed.
+        # Where the second derivative is negative, no minimum is near: the longest step downhill.
         step = fall / rise if rise > 0.0 else (MOST_CUP_TURN if fall > 0.0 else -MOST_CUP_TURN)
         step = min(max(step, -MOST_CUP_TURN), MOST_CUP_TURN)
         angle += step
@@ -177,7 +180,7 @@ def nearest_on_rim(cup, point):
 
 @kernel
 def polar_from_axis(cup, point):
-    """Distance of `point` from the axis, and cosine and sine of its direction."""
+    """Polar coordinates of `point` about the axis: distance, and cosine and sine of the angle."""
     dx = point[0] - cup['center'][0]
     dy = point[1] - cup['center'][1]
     away = sqrt(dx * dx + dy * dy)
@@ -205,13 +208,14 @@ def _next_part(kind, part, low, high):
 def _nearest(kind, part, point):
     cup = kind.cups[part // 2]
     away, c, s = polar_from_axis(cup, point)
-    if part % 2 == 1:
+    if part % 2 == 1:  # a disc, hit from above
         over = point[2] - cup['bottom']
         beyond = max(away - cup['radius'], 0.0)
         distance = sqrt(over * over + beyond * beyond)
         if distance == 0.0:
             return 0.0, (0.0, 0.0, 1.0)
         return distance, (beyond * c / distance, beyond * s / distance, over / distance)
+    # Below the rim's height the wall is nearest, above it the rim.
     if point[2] <= rim_height(cup, c, s):
         if away > cup['radius']:
             return away - cup['radius'], (c, s, 0.0)
@@ -230,6 +234,7 @@ def _turn(kind, part, point, velocity):
     if point[2] <= rim_height(cup, c, s):
         around = (-s, c, 0.0)
         return scale(-dot(velocity, around) / max(away, PLANE_ROUNDING), around)
+    # The nearest point moves along the rim as well: implicit differentiation of its condition gives its rate.
     place, ahead, bend = rim_at(cup, nearest_on_rim(cup, point))
     offset = sub(point, place)
     distance = length(offset)
@@ -240,7 +245,7 @@ def _turn(kind, part, point, velocity):
 
 @surface_protocol.hollow.register(Cups)
 def _hollow(kind, part):
-    # Within 1 / (2 K) of a curve of curvature at most K the distance's bend is at most 2 K v^2.
+    # Within 1 / (2 K) of a curve of curvature at most K the distance's second derivative is 2 K v^2 at most.
     return kind.cups[part // 2]['hollow'] if part % 2 == 0 else 0.0
 
 
@@ -250,6 +255,7 @@ def _touchable(kind, part, point):
     if part % 2 == 1:
         return point[2] >= cup['bottom']
     away, c, s = polar_from_axis(cup, point)
+    # From outside below the rim there is ground, which has no wall on that side.
     return away <= cup['radius'] or point[2] > rim_height(cup, c, s)
 
 
@@ -265,7 +271,7 @@ def _in_plane(kind, part, point, normal):
     cup = kind.cups[part // 2]
     if part % 2 == 1:
         return abs(normal[2]) > 1.0 - 1e-12 and abs(point[2] - cup['bottom']) <= SAME_HEIGHT
-    for i in range(5):  # five places decide five coefficients
+    for i in range(5):  # five points determine the rim's five coefficients
         place, _, _ = rim_at(cup, i * 2.0 * pi / 5.0)
         if abs(dot(sub(place, point), normal)) > SAME_HEIGHT:
             return False

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Curved ground from heights on a grid: cells, the walls around them, and every map as a whole.
+"""Height maps: curved ground from heights on a grid, its cells, the walls around, and each map as a whole.
 
-Parts are numbered cells first, of all maps, row by row; then walls, one a cell's side on the outline, that go
-down without end; then maps. A map as a whole is what a ball rolls on where its hollows are wide; nobody ever
-meets it, only cells and walls. On a map with a narrow hollow a ball rolls from cell to cell.
+Parts are numbered cells first, of all maps, row by row; then walls, one for each cell's side on the outline,
+that go down without end; then maps. A map as a whole is the support of a ball where its hollows are wide; it
+is never hit, only cells and walls are. On a map with a narrow hollow a ball rolls from cell to cell.
 
 ::
 
@@ -25,13 +25,13 @@ from .bicubic import GRID, bicubic, bounds, cell_at, nodes
 from .closest_point import curvatures, closest_point, held, pulls
 from .plane_patch import SAME_HEIGHT
 
-WIDE = 10.0  # 1/m: hollows bent less than this hold a ball of 5 cm at one place only, with room to spare
-SEVERAL = 32  # the effort of a cell of which several places may be nearest
-ON_SEAM = 1e-9  # rad: so far from upright above a seam a ball is above both cells
+WIDE = 10.0  # 1/m: hollows of less curvature touch a ball of 5 cm at one point only, with room to spare
+SEVERAL = 32  # effort of a cell where the distance may have several minima
+ON_SEAM = 1e-9  # rad: above a seam but for this angle, a ball is above both cells
 
 
 class Heightmap(NamedTuple):
-    """A surface through heights on a grid, solid below.
+    """Surface through heights on a grid, solid below.
 
     ``heights[iy][ix]`` [m], at least 2 x 2: an array, or rows of numbers; ``origin``: x, y of
     ``heights[0][0]``; ``spacing`` [m] of the grid along x and y.
@@ -74,7 +74,7 @@ def build(shapes, material_number):
 
 
 def spline(shape):
-    """Node values and bounds of a map's cells."""
+    """Node values of a map's spline, and bounds of its cells."""
     table = nodes(np.array(shape.heights, float))
     return table, bounds(table, shape.spacing)
 
@@ -87,7 +87,7 @@ def corners(shape):
 
 
 def plan(shape):
-    """The outline in plan, a rectangle."""
+    """Outline in plan, a rectangle."""
     (x0, y0), (x1, y1) = corners(shape)
     return [((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
 
@@ -122,7 +122,7 @@ def grid_of(kind, part):
 
 @shared
 def wall_side(grid, part):
-    """Cell of a wall, and its side: 0 at the least y, 1 at the greatest, 2 and 3 those of x."""
+    """Cell to which a wall belongs, and its side: 0 at the least y, 1 at the greatest, 2 and 3 those of x."""
     k = part - grid['first_wall']
     nx = grid['nx']
     ny = grid['ny']
@@ -144,7 +144,7 @@ def wall_number(grid, side, k):
 
 @shared
 def bounds_of(kind, part):
-    """Row of the bounds of the cell that is `part`, or that the wall `part` is a side of."""
+    """Row of the bounds of the cell `part`, or of the cell to which the wall `part` belongs."""
     if part < len(kind.cells):
         return part
     grid = kind.grids[grid_of(kind, part)]
@@ -154,7 +154,7 @@ def bounds_of(kind, part):
 
 @shared
 def rectangle(kind, grid, part):
-    """Rectangle in plan [m] of `part` from the map's origin: of a wall, it has no width."""
+    """Rectangle in plan [m] of `part` from the map's origin; that of a wall has no width."""
     size = grid['spacing']
     if part == grid['number']:
         return 0.0, 0.0, grid['nx'] * size, grid['ny'] * size
@@ -171,7 +171,9 @@ def rectangle(kind, grid, part):
 
 @shared
 def place_under(kind, grid, part, point):
-    """Nearest place of the surface of `part`, on a wall its upper edge, and `bicubic` there."""
+    """Closest point of the surface of `part`, of a wall's upper edge, and `bicubic` there."""
+    # Curvature times height over or under the cell tells `closest_point` whether the minimum is unique. On a
+    # map as a whole it is, for its hollows are wide.
     bend = 0.0
     if part < len(kind.cells):
         cell = kind.cells[part]
@@ -184,13 +186,13 @@ def place_under(kind, grid, part, point):
 
 @kernel
 def from_origin(grid, point):
-    """`point` with x and y from the map's origin."""
+    """Coordinates of `point` with x and y from the map's origin."""
     return point[0] - grid['origin'][0], point[1] - grid['origin'][1], point[2]
 
 
 @shared
 def beside_wall(kind, grid, part, local):
-    """Whether a point is nearest to a wall's upright face, and x, y of the place there."""
+    """Whether a point is nearest to a wall's upright face, and x, y of the closest point there."""
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     x = min(max(local[0], x0), x1)
     y = min(max(local[1], y0), y1)
@@ -217,7 +219,7 @@ def _nearest(kind, part, point):
     upright = unit((-at[1], -at[2], 1.0), ZERO)
     sign = -1.0 if is_below_map(kind, grid, part, local, offset, (x, y), at) else 1.0
     x0, y0, x1, y1 = rectangle(kind, grid, part)
-    if x0 < x < x1 and y0 < y < y1:  # the slopes tell the normal better than a short offset
+    if x0 < x < x1 and y0 < y < y1:  # the slopes give the normal more exactly than a short offset
         away = dot(offset, upright)
         facing = -1.0 if away < 0.0 < sign else 1.0  # past a wall, towards the back
         return facing * away, scale(facing, upright)
@@ -233,9 +235,9 @@ def is_over_map(grid, local):
 
 @shared
 def is_below_map(kind, grid, part, local, offset, place, at):
-    """Whether a point is under `part`, a cell or a map, whose nearest `place` is `offset` away.
+    """Whether a point is under `part`, a cell or a map, whose closest point `place` is `offset` away.
 
-    Past a wall a point is outside, though it be nearest to the back of ground that falls away from there.
+    Beyond a wall a point is outside, even if it is nearest to the back of ground that falls away from there.
     """
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < place[0] < x1 and y0 < place[1] < y1:
@@ -246,7 +248,7 @@ def is_below_map(kind, grid, part, local, offset, place, at):
 
 @shared
 def outward(kind, grid, part):
-    """Unit vector out of a wall."""
+    """Outward unit normal of a wall."""
     _, side = wall_side(grid, part)
     if side < 2:
         return 0.0, -1.0 if side == 0 else 1.0, 0.0
@@ -255,7 +257,8 @@ def outward(kind, grid, part):
 
 @surface_protocol.turn.register(Maps)
 def _turn(kind, part, point, velocity):
-    # The place moves so that it stays nearest; where a border holds it, only along that.
+    # The closest point moves so that it stays closest (implicit differentiation, with the Hessian of half the
+    # squared distance); held by a border, it moves along that only.
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
     x0, y0, x1, y1 = rectangle(kind, grid, part)
@@ -296,8 +299,8 @@ def turned(rate, offset):
 
 @surface_protocol.touchable.register(Maps)
 def _touchable(kind, part, point):
-    # Where the surface goes on past the border that holds the nearest place, a neighbour is nearer. A wall's
-    # upper edge is its cell's.
+    # Where the surface continues beyond the border that holds the closest point, a neighbour is nearer. A
+    # wall's upper edge belongs to its cell.
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
     if is_wall(kind, grid, part):
@@ -335,7 +338,8 @@ def _support_of(kind, part):
 
 @surface_protocol.goes_on.register(Maps)
 def _goes_on(kind, part, other):
-    # A map's own walls are no obstacles either: a ball on it meets but their upper edge, which is the map's.
+    # A map's own walls are no obstacles either: a ball on the map touches only their upper edge, which is the
+    # map's.
     return part == kind.grids[grid_of(kind, part)]['number'] and grid_of(kind, part) == grid_of(kind, other)
 
 
@@ -379,7 +383,7 @@ def _next_part(kind, part, low, high):
 
 @kernel
 def reached(grid, low, high):
-    """Whether the box meets the map, seen from above, and reaches down to it."""
+    """Whether the box overlaps the map in plan, and reaches down to it."""
     x = grid['origin'][0]
     y = grid['origin'][1]
     return (low[2] <= grid['high'] and high[0] >= x and low[0] <= x + grid['nx'] * grid['spacing']
@@ -388,7 +392,8 @@ def reached(grid, low, high):
 
 @kernel
 def columns_in(grid, axis, low, high):
-    """First and last cell along an axis that the box may meet."""
+    """First and last cell along an axis that the box may overlap."""
+    # A little more on both sides: on a seam both cells count, whatever the rounding.
     count = grid['ny'] if axis else grid['nx']
     first = floor((low[axis] - grid['origin'][axis]) / grid['spacing'] - 1e-9)
     last = floor((high[axis] - grid['origin'][axis]) / grid['spacing'] + 1e-9)

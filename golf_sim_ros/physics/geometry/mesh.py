@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Triangles: thin sheets, hit from both sides unless they are one-sided. Each is a part.
+"""Triangle meshes: thin sheets, hit from both sides unless they are one-sided. Each triangle is a part.
 
-Triangles in one plane are seams to each other: a ball that rolls off one is put on the next one's plane,
-which is the same. Parts are numbered depth first along a hierarchy of boxes, mesh by mesh.
+Between coplanar triangles there are seams, no edges: a ball that rolls off one is put on the plane of the
+next, which is the same. Parts are numbered depth first along a bounding volume hierarchy, mesh by mesh.
 """
 from math import inf
 from typing import NamedTuple
@@ -16,9 +16,9 @@ from . import surface_protocol
 from .bvh import BVH_NODE, hierarchy
 from .plane_patch import FLUSH, PLANE_ROUNDING, SAME_HEIGHT, meets
 
-MESH_AHEAD = 1e-7  # m: which way a ball on a border turns is decided this far ahead
-NARROW = 1e-9  # m: a triangle that is no wider has no plane that could be trusted
-TRIANGLE_FACE, CORNER = -1, 3  # where a place on a triangle is, if not on side 0, 1 or 2
+MESH_AHEAD = 1e-7  # m: on a border, face, side or corner is decided this far ahead of a moving ball
+NARROW = 1e-9  # m: the normal of a triangle that is no wider is rounding
+TRIANGLE_FACE, CORNER = -1, 3  # feature of a triangle, if not side 0, 1 or 2
 
 TRIANGLE = np.dtype([('corners', 'f8', (3, 3)), ('normal', 'f8', 3), ('material', 'i8'),
                      ('one_sided', 'i8'), ('leaf', 'i8')], align=True)
@@ -37,7 +37,7 @@ class Mesh(NamedTuple):
 
 
 class Meshes(NamedTuple):
-    """All meshes of a course: triangles, and one hierarchy after the other."""
+    """All meshes of a course: triangles, and the nodes of one BVH after the other."""
 
     triangles: np.ndarray
     nodes: np.ndarray
@@ -70,12 +70,12 @@ def meshes(shapes, material_number):
 
 
 def checked(shape):
-    """Faces of `shape`, a `Mesh`, if all of them can be used."""
+    """Faces of `shape`, a `Mesh`; ValueError where one can't be used."""
     vertices = np.asarray(shape.vertices, float).reshape(-1, 3)
     faces = np.asarray(shape.faces, np.int64).reshape(-1, 3)
     if len(faces) and not 0 <= faces.min() <= faces.max() < len(vertices):
         raise ValueError(f'a face of a mesh names a vertex out of 0 to {len(vertices) - 1}')
-    wide = widths(vertices[faces]) > NARROW  # not a number is not wide, either
+    wide = widths(vertices[faces]) > NARROW  # false for a width that is not a number, too
     if not wide.all():
         raise ValueError(f'face {wide.argmin()} of a mesh is not finite, or no wider than {NARROW} m')
     return faces
@@ -112,6 +112,7 @@ def _parts(kind):
 
 @surface_protocol.next_part.register(Meshes)
 def _next_part(kind, part, low, high):
+    # A query resumes at the leaf of `part`, not at the root: a loop over parts is one walk of the tree.
     triangles = len(kind.triangles)
     node = 0
     if 0 < part < triangles:
@@ -135,7 +136,7 @@ def _next_part(kind, part, low, high):
 
 @kernel
 def is_near(triangle, low, high):
-    """Whether the triangle's box meets the box from `low` to `high`."""
+    """Whether the triangle's box overlaps the box from `low` to `high`."""
     for axis in range(3):
         a = triangle['corners'][0, axis]
         b = triangle['corners'][1, axis]
@@ -147,7 +148,7 @@ def is_near(triangle, low, high):
 
 @kernel
 def offset_from(triangle, point):
-    """Vector to `point` from the nearest place of the triangle, and where that is: FACE, a side, CORNER."""
+    """Vector to `point` from the triangle's closest point, and its feature: TRIANGLE_FACE, a side, CORNER."""
     normal = load(triangle['normal'])
     where = TRIANGLE_FACE
     best = ZERO
@@ -156,7 +157,7 @@ def offset_from(triangle, point):
         start = load(triangle['corners'][i])
         side = sub(load(triangle['corners'][(i + 1) % 3]), start)
         d = sub(point, start)
-        if dot(cross(normal, side), d) >= 0.0:
+        if dot(cross(normal, side), d) >= 0.0:  # the foot is on the inner side of this side
             continue
         t = min(max(dot(d, side) / dot(side, side), 0.0), 1.0)
         offset = add_scaled(d, -t, side)
@@ -178,7 +179,7 @@ def height_over(triangle, point):
 
 @kernel
 def beside_triangle(triangle, point, offset):
-    """How far [m] from the triangle the foot of `point` in its plane lies."""
+    """Distance [m] of the foot of `point` in the triangle's plane from the triangle, by its `offset`."""
     return length(tangential(offset, load(triangle['normal'])))
 
 
@@ -187,6 +188,7 @@ def _nearest(kind, part, point):
     triangle = kind.triangles[part]
     normal = load(triangle['normal'])
     offset, where = offset_from(triangle, point)
+    # A foot within FLUSH of a face counts as on it: rounding between neighbours is no edge.
     if where == TRIANGLE_FACE or beside_triangle(triangle, point, offset) <= FLUSH:
         h = height_over(triangle, point)
         return abs(h), normal if h >= 0.0 else scale(-1.0, normal)
@@ -203,7 +205,7 @@ def _turn(kind, part, point, velocity):
     if where == TRIANGLE_FACE:
         return ZERO
     distance, out = surface_protocol.nearest(kind, part, point)
-    if where != CORNER:
+    if where != CORNER:  # along a side the closest point goes along with the ball, and the normal stays
         side = sub(load(triangle['corners'][(where + 1) % 3]), load(triangle['corners'][where]))
         velocity = tangential(velocity, unit(side, ZERO))
     return scale(1.0 / distance, tangential(velocity, out))
@@ -232,7 +234,7 @@ def _in_plane(kind, part, point, normal):
     if (abs(dot(load(triangle['normal']), normal)) > 1.0 - 1e-12
             and abs(height_over(triangle, point)) <= SAME_HEIGHT):
         return True
-    for i in range(3):  # a sliver's normal may be off, and the sliver is not
+    for i in range(3):  # a sliver's normal may be inexact while its corners lie in the plane
         if abs(dot(sub(load(triangle['corners'][i]), point), normal)) > PLANE_ROUNDING:
             return False
     return True
@@ -277,12 +279,12 @@ def _top(kind, x, y):
 
 
 def plan(shape):
-    """No outlines: a triangle's own sides say where it ends."""
+    """Outlines in plan: none, for a triangle's own sides are its limits."""
     return ()
 
 
 def heights(shape):
-    """Least and greatest height of the vertices that faces name."""
+    """Least and greatest height of the vertices that belong to faces."""
     z = np.asarray(shape.vertices, float).reshape(-1, 3)[np.asarray(shape.faces, np.int64).reshape(-1, 3), 2]
     return float(z.min(initial=inf)), float(z.max(initial=-inf))
 

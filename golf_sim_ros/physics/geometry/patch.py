@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A rectangle: a thin sheet, hit from both sides unless it is one-sided."""
+"""Rectangle: a thin sheet, hit from both sides unless it is one-sided."""
 from typing import NamedTuple
 
 from ..properties.material import Material
 
 
 class Patch(NamedTuple):
-    """A rectangle around `center` with unit `normal`.
+    """Rectangle around `center` with unit `normal`.
 
     `length` [m] lies along `heading` (radians from x towards y, projected into the rectangle's
     plane), `width` [m] across it. `cut` holds polygons, tuples of (x, y), where the sheet ends.

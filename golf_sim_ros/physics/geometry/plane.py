@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An endless plane, solid below, that may be cut open."""
+"""Endless plane, solid below, that may be cut open."""
 from typing import NamedTuple
 
 from ..properties.material import Material
 
 
 class Plane(NamedTuple):
-    """A plane through `point` with unit `normal`, solid on the other side.
+    """Plane through `point` with unit `normal`, solid on the other side.
 
     `cut` holds polygons, tuples of (x, y), where the surface ends: a pit with walls along the
     normal opens there.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Flat ground for kernels: planes, patches, and the edges where they are cut.
+"""Flat ground: planes, patches, and the edges where they are cut.
 
 Parts are numbered faces first, then the edges of cuts. A face is a rectangle, of endless size and
 solid below for a plane; a cut plane's edges are walls that go down along its normal.
@@ -26,10 +26,10 @@ from .patch import Patch
 from .plane import Plane
 from .polygon import Polygons, inside, polygons, sides
 
-SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as equally high
-PLANE_ROUNDING = 1e-9  # m: neighbouring faces leave no gap narrower than this
+SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as coplanar
+PLANE_ROUNDING = 1e-9  # m: faces extend by this, so that neighbours leave no gap by rounding
 FLUSH = 2.0 * PLANE_ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
-AHEAD = 2e-7  # m: a ball on a border turns as it will past it, or it would leave an edge too late
+AHEAD = 2e-7  # m: on a border the normal turns as it will beyond it, or a ball would leave an edge too late
 
 FACE = np.dtype([
     ('center', 'f8', 3), ('normal', 'f8', 3), ('along', 'f8', 3), ('across', 'f8', 3),
@@ -51,7 +51,7 @@ class Flats(NamedTuple):
 
 
 def frame(normal, heading):
-    """Unit vectors along `heading` and across it in the plane of `normal`."""
+    """Orthonormal frame: the normal, the unit vector along `heading` in its plane, and that across."""
     n = np.asarray(normal, float)
     n = n / np.linalg.norm(n)
     ahead = np.array([cos(heading), sin(heading), 0.0])
@@ -127,20 +127,20 @@ def _next_part(kind, part, low, high):
 
 @kernel
 def meets(row, low, high):
-    """Whether the box of a face or edge meets the box from `low` to `high`."""
+    """Whether the box of `row`, a face, edge or node, overlaps the box from `low` to `high`."""
     return not (low[2] > row['high'][2] or high[0] < row['low'][0] or low[0] > row['high'][0]
                 or high[1] < row['low'][1] or low[1] > row['high'][1] or high[2] < row['low'][2])
 
 
 @kernel
 def clamped(x, most):
-    """`x`, at least -`most` and at most `most`."""
+    """Clamp `x` between -`most` and `most`."""
     return min(max(x, -most), most)
 
 
 @kernel
 def offset_from_face(face, point):
-    """Vector to `point` from the nearest place of a face, and the height over its plane."""
+    """Vector to `point` from the closest point of a face, and the height over its plane."""
     d = sub(point, load(face['center']))
     normal = load(face['normal'])
     a = dot(d, load(face['along']))
@@ -154,7 +154,7 @@ def offset_from_face(face, point):
 
 @kernel
 def offset_from_edge(edge, point):
-    """Vector to `point` from the nearest place of a cut's edge, wall included."""
+    """Vector to `point` from the closest point of a cut's edge, wall included."""
     d = sub(point, load(edge['start']))
     direction = load(edge['direction'])
     normal = load(edge['normal'])
@@ -209,7 +209,7 @@ def _turn(kind, part, point, velocity):
 
 @kernel
 def in_direction(velocity, direction):
-    """Part of `velocity` in a unit `direction`."""
+    """Component of `velocity` along a unit `direction`, as a vector."""
     return scale(dot(velocity, direction), direction)
 
 
@@ -315,7 +315,7 @@ def plan(shape):
 
 
 def heights(shape):
-    """Least and greatest height of a patch; of a level plane its own; a tilted one has no bounds."""
+    """Least and greatest height of a patch or a level plane; a tilted plane counts as having none."""
     if isinstance(shape, Plane):
         level = frame(shape.normal, 0.0)[0][2] == 1.0
         return (shape.point[2], shape.point[2]) if level else (-inf, -inf)

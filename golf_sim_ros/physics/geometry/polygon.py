@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Polygons in plan: a table of corners, and which of them belong together."""
+"""Polygons in plan: point queries on a table of corners."""
 from math import inf, sqrt
 from typing import NamedTuple
 
@@ -9,14 +9,14 @@ from ..jit import kernel
 
 
 class Polygons(NamedTuple):
-    """``corners[first[i]:first[i + 1]]`` are those of polygon i."""
+    """Polygons in one table: ``corners[first[i]:first[i + 1]]`` are those of polygon i."""
 
     corners: np.ndarray
     first: np.ndarray
 
 
 class Regions(NamedTuple):
-    """Region i is outline i without ``cuts`` number ``first_cut[i]`` to before ``first_cut[i + 1]``."""
+    """Polygons with holes: those of outline i are cuts ``first_cut[i]`` to before ``first_cut[i + 1]``."""
 
     outlines: Polygons
     cuts: Polygons
@@ -24,7 +24,7 @@ class Regions(NamedTuple):
 
 
 class Circle(NamedTuple):
-    """A round outline in plan."""
+    """Round outline in plan."""
 
     x: float
     y: float
@@ -77,7 +77,7 @@ def from_sides(table, i, x, y):
 
 @kernel
 def inside(table, i, x, y):
-    """Whether polygon `i` contains the point (even-odd rule)."""
+    """Whether polygon `i` contains the point, by the even-odd rule."""
     odd = False
     first = table.first[i]
     last = table.first[i + 1]
@@ -106,7 +106,7 @@ def in_region(table, i, x, y):
 
 @kernel
 def beside_region(table, i, x, y):
-    """A distance [m] at which, or farther, region `i` lies from the point; 0 inside, and only there."""
+    """Lower bound [m] on the distance of the point from region `i`; 0 inside, and only there."""
     away = beside(table.outlines, i, x, y)
     for k in range(table.first_cut[i], table.first_cut[i + 1]):
         if inside(table.cuts, k, x, y):

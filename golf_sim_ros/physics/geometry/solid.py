@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Solids that stand on the ground: upright cylinders with flat ends, and spheres."""
+"""Solids on the ground: upright cylinders with flat ends, and spheres."""
 from math import sqrt
 from typing import NamedTuple
 
@@ -25,7 +25,7 @@ FLAGSTICK_MATERIAL = Material('flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.
 
 
 class Cylinder(NamedTuple):
-    """An upright cylinder with flat ends: `base` is the middle of the lower one."""
+    """Upright cylinder with flat ends: `base` is the centre of the lower one."""
 
     base: tuple
     radius: float
@@ -34,7 +34,7 @@ class Cylinder(NamedTuple):
 
 
 class Sphere(NamedTuple):
-    """A ball that stays where it is."""
+    """Fixed sphere."""
 
     center: tuple
     radius: float
@@ -42,7 +42,7 @@ class Sphere(NamedTuple):
 
 
 class Flagstick(NamedTuple):
-    """A `Cylinder` in the hole; an impact with it is told as such."""
+    """Flagstick: a `Cylinder` in the hole; impacts with it are reported as such."""
 
     base: tuple
     radius: float = FLAGSTICK_RADIUS
@@ -71,7 +71,7 @@ def build(shapes, material_number):
 
 
 def without(ground):
-    """`Ground` without its solids: no obstacles, no flagstick. The types are the same."""
+    """`Ground` without solids: no obstacles, no flagstick. The types are the same, so nothing recompiles."""
     return ground._replace(kinds=tuple(Solids(kind.solids[:0]) if isinstance(kind, Solids) else kind
                                        for kind in ground.kinds))
 
@@ -85,19 +85,19 @@ def solid_box(shape):
 
 
 def plan(shape):
-    """The rim of a cylinder's flat top; a sphere has nothing flat that ends."""
+    """Outline in plan: the rim of a cylinder's flat top; a sphere has nothing flat that ends."""
     return [] if isinstance(shape, Sphere) else [Circle(shape.base[0], shape.base[1], shape.radius)]
 
 
 def heights(shape):
-    """Lowest and highest of a solid."""
+    """Least and greatest height of a solid."""
     low, high = solid_box(shape)
     return low[2], high[2]
 
 
 @kernel
 def from_axis(solid, point):
-    """Distance of `point` from the upright axis, and the level unit vector from there."""
+    """Distance of `point` from the upright axis, and the horizontal unit vector from there."""
     dx = point[0] - solid['center'][0]
     dy = point[1] - solid['center'][1]
     away = sqrt(dx * dx + dy * dy)
@@ -106,7 +106,7 @@ def from_axis(solid, point):
 
 @kernel
 def over_ends(solid, point):
-    """Height of `point` over a cylinder's upper end, or depth under its lower one: negative between them."""
+    """Distance of `point` beyond the nearer end of a cylinder, negative between them, and its normal."""
     h = point[2] - solid['center'][2]
     return max(h - solid['height'], -h), (0.0, 0.0, 1.0 if h > 0.5 * solid['height'] else -1.0)
 
@@ -156,7 +156,7 @@ def _turn(kind, part, point, velocity):
     circling = dot(velocity, around) / away
     if over < -PLANE_ROUNDING:
         return scale(circling, around)
-    # Around the rim, whose nearest place goes along with the motion about the axis.
+    # Around the rim, whose closest point follows the motion about the axis.
     relative = add_scaled(velocity, -circling * solid['radius'], around)
     normal = add_scaled(scale(max(beyond, 0.0), out), max(over, 0.0), upright)
     distance = max(length(normal), PLANE_ROUNDING)

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a kind of ground must be able to say. All shapes of a kind are one record of arrays.
+"""Protocol of a kind of ground: its laws. All shapes of a kind are one record of arrays.
 
-A kind is made of parts, numbered from 0. They are convex, or their hollows have a bounded curvature:
-that is what lets contacts be found without ever stepping over one. A new kind registers a body for
-each of these laws that it has a word in.
+A kind consists of parts, numbered from 0. They are convex, or their hollows have bounded curvature, which is
+what conservative advancement needs. A new kind registers a body for each law where the default does not do.
 """
 from ..jit import generic
 from ..mechanics.vector import ZERO, add_scaled, length, scale, sub
@@ -14,13 +13,13 @@ GROUND_SORT, CUP_SORT, FLAGSTICK_SORT, OBSTACLE_SORT = range(4)
 
 @generic
 def parts(kind):
-    """Number of convex parts."""
+    """Number of parts."""
     return 0
 
 
 @generic
 def next_part(kind, part, low, high):
-    """First part, from number `part` on, that may have a point in the box from `low` to `high`.
+    """First part, from number `part` on, that may overlap the box from `low` to `high`.
 
     Where there is none, the number of parts or more.
     """
@@ -29,16 +28,17 @@ def next_part(kind, part, low, high):
 
 @generic
 def nearest(kind, part, point):
-    """Distance of `point` from `part`, and the unit vector from there to `point`.
+    """Signed distance of `point` from `part`, and the unit normal from the nearest point to `point`.
 
-    Negative inside a solid part, where the vector still points out of it.
+    The distance is negative inside a solid part, where the normal still points out of it.
     """
     return 0.0, (0.0, 0.0, 1.0)
 
 
 @generic
 def turn(kind, part, point, velocity):
-    """Rate of change of the unit vector that `nearest` gives, as `point` moves at `velocity`."""
+    """Rate of change of the unit normal that `nearest` gives, as `point` moves at `velocity`."""
+    # The default, for kinds without a closed form: central differences over a micrometre to each side.
     speed = length(velocity)
     if speed == 0.0:
         return ZERO
@@ -50,31 +50,31 @@ def turn(kind, part, point, velocity):
 
 @generic
 def hollow(kind, part):
-    """Greatest curvature [1/m] of the hollows of `part`, seen from outside; 0 of a convex part."""
+    """Greatest concave curvature [1/m] of `part`, seen from outside; 0 if it is convex."""
     return 0.0
 
 
 @generic
 def effort(kind, part):
-    """What it takes to find the place of `part` that is nearest to a ball near it, of a plane's 1."""
+    """Work of finding the point of `part` nearest to a ball near it, over that of a plane."""
     return 1
 
 
 @generic
 def touchable(kind, part, point):
-    """Whether the surface exists where `part` is nearest to `point`, seen from there."""
+    """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
     return True
 
 
 @generic
 def in_cut(kind, part, point):
-    """Whether `part` is cut away, within an outline in plan, where it would be nearest to `point`."""
+    """Whether `part` is cut away, within an outline in plan, at its point nearest to `point`."""
     return False
 
 
 @generic
 def flat_under(kind, part, point):
-    """Whether `part` is flat around the place nearest to `point`."""
+    """Whether `part` is flat around its point nearest to `point`."""
     return False
 
 
@@ -86,7 +86,7 @@ def in_plane(kind, part, point, normal):
 
 @generic
 def is_plane(kind, part):
-    """Whether `nearest` gives the same vector everywhere: of an endless plane, solid below."""
+    """Whether `nearest` gives the same normal everywhere: of an endless plane, solid below."""
     return False
 
 
@@ -98,31 +98,31 @@ def limits(kind):
 
 @generic
 def limit(kind, part, i):
-    """Line `i` at which `part` ends: a point of it, and the unit vector from there into the part."""
+    """Point of line `i` at which `part` ends, and the unit vector from there into the part."""
     return ZERO, ZERO
 
 
 @generic
 def support_of(kind, part):
-    """Part that a ball stands on where it touches `part`: of a smooth surface, all of it."""
+    """Part that supports a ball which touches `part`: of a smooth surface, the surface as a whole."""
     return part
 
 
 @generic
 def goes_on(kind, part, other):
-    """Whether `other` is the same smooth surface as `part`, a support, and so no obstacle on it."""
+    """Whether `other` continues the smooth surface `part`, a support, and so is no obstacle on it."""
     return False
 
 
 @generic
 def is_ground(kind):
-    """Whether zones repaint it and the hole is cut into it."""
+    """Whether zones repaint this kind and the hole is cut into it."""
     return True
 
 
 @generic
 def sort(kind, part):
-    """Whether `part` is GROUND, CUP, FLAGSTICK or OBSTACLE: what an impact with it is told as."""
+    """Sort of `part`, GROUND_SORT, CUP_SORT, ...: what an impact with it is reported as."""
     return GROUND_SORT
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The ground as a whole: every kind's parts in one numbering, and lines where things change.
+"""Ground as a whole: the parts of all kinds in one numbering, and borders where surface or material change.
 
-The closest point, the highest surface and the material under a point are asked for here, whatever
-kind of ground gives the answer.
+Queries for the closest point, the highest surface and the material under a point, whatever kind of ground
+answers them.
 """
 from math import sqrt
 from typing import NamedTuple
@@ -18,18 +18,18 @@ from .polygon import Polygons, Regions, beside, in_region, inside
 from .water_surface import Waters
 
 NO_GROUND = -1e300
-LOOK_AHEAD = 1e-7  # m: on a border, what a ball is on is decided this far ahead
-RIM_REACH = 0.02  # m: so near to the height of its rim the hole cuts whatever ground is there
+LOOK_AHEAD = 1e-7  # m: on a border, the support of a ball is decided this far ahead
+RIM_REACH = 0.02  # m: within this of the height of its rim the hole cuts whatever ground is there
 
 BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8')],
                   align=True)
 
 
 class Ground(NamedTuple):
-    """Everything that a ball can touch.
+    """All that a ball can touch.
 
-    ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
-    surface may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
+    ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another surface
+    or material may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
     ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
     greatest height of the rim, height of the bottom; ``waters`` lie over it all; all ground and water but
     tilted planes lies between ``lowest`` and ``highest``.
@@ -47,7 +47,7 @@ class Ground(NamedTuple):
 
 
 def of_its_kind(law, otherwise):
-    """Kernel that asks `law` of the kind that a part, numbered among those of all kinds, belongs to."""
+    """Kernel that calls `law` for the kind to which a part, numbered among those of all kinds, belongs."""
     @shared
     def asked(ground, part, *more):
         result = otherwise
@@ -58,7 +58,7 @@ def of_its_kind(law, otherwise):
             part -= n
         return result
 
-    # Machine code of two processes meets in a third by its names: no two kernels may have the same.
+    # Compiled code of two processes may be linked in a third, by name: no two kernels may share one.
     asked.__name__ = asked.__qualname__ = f'{law.__name__}_of_its_kind'
     asked.__doc__ = law.__doc__
     return asked
@@ -89,7 +89,7 @@ def parts(ground):
 
 @shared
 def next_part(ground, part, low, high):
-    """First part, from `part` on, that may have a point in the box from `low` to `high`, or NO_PART."""
+    """First part, from `part` on, that may overlap the box from `low` to `high`, or NO_PART."""
     found = NO_PART
     before = 0
     for kind in literal_unroll(ground.kinds):
@@ -128,7 +128,7 @@ def is_ground(ground, part):
 
 @shared
 def support_of(ground, part):
-    """Part that a ball stands on where it touches `part`: of a smooth surface, all of it."""
+    """Part that supports a ball which touches `part`: of a smooth surface, the surface as a whole."""
     result = part
     before = 0
     for kind in literal_unroll(ground.kinds):
@@ -141,7 +141,7 @@ def support_of(ground, part):
 
 @shared
 def goes_on(ground, part, other):
-    """Whether `other` is the same smooth surface as `part`, a support, and so no obstacle on it."""
+    """Whether `other` continues the smooth surface `part`, a support, and so is no obstacle on it."""
     result = False
     for kind in literal_unroll(ground.kinds):
         n = surface_protocol.parts(kind)
@@ -154,7 +154,7 @@ def goes_on(ground, part, other):
 
 @shared
 def touchable(ground, part, point):
-    """Whether the surface exists where `part` is nearest to `point`, seen from there."""
+    """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
     if len(ground.hole) > 0 and is_ground(ground, part):
         distance, normal = nearest(ground, part, point)
         if in_hole(ground.hole, add_scaled(point, -distance, normal)):
@@ -180,7 +180,7 @@ def in_cup(hole, place):
 
 @shared
 def material_of(ground, part, point):
-    """Number of the material of `part` where it is touched at `point`: of the last zone there, if any."""
+    """Number of the material of `part` at the contact `point`: that of the last zone there, if any."""
     if len(ground.zone_materials) > 0 and is_ground(ground, part):
         for back in range(1, len(ground.zone_materials) + 1):
             i = len(ground.zone_materials) - back
@@ -206,7 +206,7 @@ def top(ground, x, y):
 
 @entry
 def look_down(ground, x, y):
-    """Height of the highest surface at `x`, `y`, its part, and the number of its material; see `top`."""
+    """Height of the highest surface at `x`, `y`, its part, and the number of its material, for Python."""
     ground = borrowed(ground)
     z, part = top(ground, x, y)
     return z, part, material_of(ground, part, (x, y, z))
@@ -228,7 +228,7 @@ def ground_level(ground, x, y):
 
 @kernel
 def out_of_bounds(ground, x, y):
-    """How far [m] the point is out of the course's bounds, in plan; -1 within them, or if there are none."""
+    """Distance [m] in plan by which the point is out of bounds; -1 within bounds, or if there are none."""
     if len(ground.bounds.first) < 2 or inside(ground.bounds, 0, x, y):
         return -1.0
     return beside(ground.bounds, 0, x, y)
@@ -236,17 +236,17 @@ def out_of_bounds(ground, x, y):
 
 @shared
 def is_alone(ground, part, point, radius):
-    """Whether a ball at `point` that touches `part` can touch no other ground."""
+    """Whether a ball at `point` that touches `part` can touch no other part."""
     low, high = around(point, radius + SAME_HEIGHT)
     return next_part(ground, 0, low, high) == part and next_part(ground, part + 1, low, high) == NO_PART
 
 
 @shared
 def touched(ground, point, radius, ahead):
-    """Part that a ball at `point` stands on, the latest of equals, and the normal there.
+    """Part that supports a ball at `point`, the latest of equals, and the normal there.
 
-    A part counts if it lies within SAME_HEIGHT of touching. Faces count where they reach `ahead`,
-    a unit vector, from here: on a border it decides who is next. A face beats an edge.
+    A part counts if its gap is within SAME_HEIGHT. Faces count where they exist `ahead`, a unit vector, of
+    here: on a border that decides which is next. A face has priority over an edge.
     """
     best = NO_PART
     best_flat = False
@@ -269,9 +269,9 @@ def touched(ground, point, radius, ahead):
 
 @shared
 def under(ground, part, point, ahead):
-    """`nearest`, of `part` under a ball at `point` that heads for `ahead`, a unit vector or zero.
+    """`nearest`, for the support `part` of a ball at `point` that moves along `ahead`, a unit vector or zero.
 
-    On a border a flat part that goes on ahead counts as flat: a corner that is passed by is no edge.
+    On a border a flat part that continues ahead counts as flat: a corner that is passed by is no edge.
     """
     next_point = add_scaled(point, LOOK_AHEAD, ahead)
     if flat_under(ground, part, next_point):
@@ -282,7 +282,7 @@ def under(ground, part, point, ahead):
 
 @kernel
 def depth(ground, point, radius):
-    """How deep [m] a ball at `point` lies in the ground; 0 where it is clear."""
+    """Greatest penetration depth [m] of a ball at `point`; 0 where it is clear."""
     deepest = 0.0
     low, high = around(point, radius)
     part = next_part(ground, 0, low, high)
@@ -325,6 +325,6 @@ def distance_in_plan(border, x, y):
 
 @kernel
 def slope(pull, normal):
-    """How hard `pull` presses on a surface of `normal`, and its part along the surface."""
+    """Normal and tangential part of `pull`: the press on a surface of `normal`, and the pull along it."""
     press = -dot(pull, normal)
     return press, add_scaled(pull, press, normal)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Water: a level surface over a polygon in plan. It is no ground: nothing stands on it.
+"""Water: a level surface over a polygon in plan. It is not ground: nothing stands on it.
 
-A ball is in it when its centre is. So a ball that lies in a puddle plays on, and what rolls down a bank
+A ball is in water if its centre is. So a ball that lies in a puddle plays on, and one that rolls down a bank
 is in the water where it is half under.
 """
 from typing import NamedTuple
@@ -13,7 +13,7 @@ from .polygon import Regions, beside_region, regions
 
 
 class Water(NamedTuple):
-    """A pond: corners (x, y) of its `polygon`, height [m] of its surface, the `level`.
+    """Pond: corners (x, y) of its `polygon`, height [m] of its surface, the `level`.
 
     The polygon may reach into the banks: where ground is higher than the level, there is no water. `cut`
     holds polygons within, islands, where there is none at any level.
@@ -25,7 +25,7 @@ class Water(NamedTuple):
 
 
 class Waters(NamedTuple):
-    """All water of a course: outlines in plan, and the ``levels`` [m] of their surfaces."""
+    """All waters of a course: outlines in plan, and the ``levels`` [m] of their surfaces."""
 
     outlines: Regions
     levels: np.ndarray

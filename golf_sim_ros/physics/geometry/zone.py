@@ -6,7 +6,7 @@ from ..properties.material import Material
 
 
 class Zone(NamedTuple):
-    """Corners (x, y) of its `polygon`; `cut` holds polygons within, which it leaves as they are."""
+    """Zone with corners (x, y) of its `polygon`; `cut` holds polygons within that it does not repaint."""
 
     material: Material
     polygon: tuple

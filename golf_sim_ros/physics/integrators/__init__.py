@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Integrators: one file each, found by themselves.
+"""Integrators: one file each, discovered on import.
 
-A Runge-Kutta method is a record with a table; `step` is shared. A method of another kind registers
-its own body for `step`.
+A Runge-Kutta method is a record with a Butcher tableau; `step` is shared. A method of another kind registers
+its own body for `runge_kutta.step_by`.
 """
 import importlib
 import pkgutil
@@ -13,7 +13,7 @@ from . import runge_kutta
 
 
 class Method(NamedTuple):
-    """A known integrator: its record type, and the name of the field that says how exact it is."""
+    """Known integrator: its record type, and the name of its field for accuracy, a tolerance or step."""
 
     record: Callable
     dial: str
@@ -29,5 +29,5 @@ for _module in pkgutil.iter_modules(__path__):
 
 @shared
 def step(model, ball):
-    """Lay the ball's next segment: one step of the model's method. Writes curve, span, step, ending."""
+    """Plan the ball's next segment: one step of the model's method. Writes curve, span, step, ending."""
     runge_kutta.step_by(model.method, model, ball)

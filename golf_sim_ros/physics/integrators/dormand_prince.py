@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Dormand and Prince's method of order 5 with an embedded one of order 4 and adaptive steps.
+"""Dormand-Prince 5(4): an embedded Runge-Kutta method with adaptive steps.
 
 J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae", J. Comput. Appl. Math. 6
 (1980) 19-26.
@@ -21,21 +21,21 @@ TABLE = np.array([
     [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
     [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]])
 ERROR = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
-HOP_ERROR = np.array([0, 0, 0, 1 / 6, -1 / 6])  # to a rule of order 3, with the last stage for that before
-LEAST = 1e-9  # s
+HOP_ERROR = np.array([0, 0, 0, 1 / 6, -1 / 6])  # of RK4 to a rule of order 3: the last stage for the fourth
+LEAST = 1e-9  # s: a shorter step is accepted whatever its error
 MOST_GROWTH = 4.0  # from one step to the next
-# Hops of less than NEAR times the tolerance's fourth root are flown by order 4, with two stages less. Its
-# error would allow of twice that, but a ball that skids over rough makes hundreds of times as much of it.
+# Hops of less than STEP_SAFETY times the tolerance's fourth root are flown by RK4, with two stages fewer. Its
+# error would allow twice that, but a ball that skids over rough amplifies it by hundreds.
 STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
 ON_GROUND = 0.2  # of the tolerance: along the ground, where a ball must be slow to stop, errors count more,
-MOST_ON_GROUND = 1e-5  # m: and coarser steps cost as much, for other things end them
+MOST_ON_GROUND = 1e-5  # m: and coarser steps save nothing, for events and the ground's curvature end them
 
 
 class DormandPrince(NamedTuple):
     """Adaptive steps of order 5.
 
-    ``tolerance`` [m] of the error of a step, velocity counting for a second; ``longest`` step [s].
+    ``tolerance`` [m] of a step's error, weighted as in `runge_kutta.error_in_metres`; ``longest`` step [s].
     """
 
     tolerance: float
@@ -62,8 +62,8 @@ def _allowed(method, ball):
 @runge_kutta.first_step.register(DormandPrince)
 def _first_step(method, speed, hop, most):
     # The error of a step goes with its fifth power. Air bends the path of a fast ball over a time that goes
-    # with 1/speed, weight that of a slow one: a drive begins with 0.33 s for 5e-5 m, a ball that hops with
-    # half a second. A little more than a hop takes: no more is used, and the air may carry it.
+    # with 1/speed, gravity that of a slow one: a drive starts with 0.33 s for 5e-5 m, a ball that hops with
+    # half a second. The step is a little longer than the hop: no more is used, and lift may prolong that.
     far = min(175.0 / max(speed, 1.0), 3.5)
     short = 1.05 * hop + 1e-6
     part = short / far
@@ -75,15 +75,16 @@ def _first_step(method, speed, hop, most):
 
 @runge_kutta.stands.register(DormandPrince)
 def _stands(method, h, error, most):
-    # Where a force jumps, nothing is gained below LEAST. A length that is no number is none of a step.
+    # At a discontinuity of a force, steps below LEAST gain nothing. A step that is not a number is accepted,
+    # or the loop would not end.
     return error <= most or not h >= LEAST
 
 
 @runge_kutta.next_step.register(DormandPrince)
 def _next_step(method, h, error, most):
-    if h < LEAST:  # the jump is behind
+    if h < LEAST:  # the discontinuity has been passed
         return MOST_GROWTH * h
-    if not error < 1e300:  # its stages ran away, as of a light ball that dense air stops within microseconds
+    if not error < 1e300:  # the stages diverged, as of a light ball that dense air stops within microseconds
         return 0.1 * h
     grow = 0.9 / sqrt(sqrt(max(error / most, 1e-3)))  # as good a guess as the fifth root, and cheaper
     return min(h * min(max(grow, 0.1), MOST_GROWTH), method.longest)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Semi-implicit Euler: what most game engines do. A baseline, of order 1."""
+"""Semi-implicit (symplectic) Euler, of order 1: a baseline, as in most game engines."""
 from typing import NamedTuple
 
 from ..mechanics.vector import add_scaled, store, scale, load
@@ -9,7 +9,7 @@ from . import runge_kutta
 
 
 class SemiImplicitEuler(NamedTuple):
-    """Fixed steps: velocity first, then position with the new velocity; ``length`` [s]."""
+    """Fixed steps of ``length`` [s]: velocity first, then position with the new velocity."""
 
     length: float
 

@@ -15,7 +15,7 @@ TABLE = np.array([
 
 
 class RungeKutta4(NamedTuple):
-    """Fixed steps of order 4; ``length`` of a step [s]."""
+    """Fixed steps of ``length`` [s], of order 4."""
 
     length: float
 

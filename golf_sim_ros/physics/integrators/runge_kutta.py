@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One step of flight, or along ground that is not flat, shared by all Runge-Kutta methods."""
+"""One Runge-Kutta step of flight, or along ground that is not flat, by the tableau of any method."""
 from math import inf, sqrt
 
 import numpy as np
@@ -11,8 +11,8 @@ from ..state.ball import FLIGHT, STEP_END
 from ..trajectory.equations_of_motion import LEAST_SPEED, rates
 from ..trajectory.segment import fit_segment
 
-# What a wrong velocity or spin is worth in metres: it goes on for about a second, and 100 rad/s
-# bend a drive by about a metre in that time.
+# Weights that turn errors of velocity and spin into metres: they act for about a second, in which 100 rad/s
+# bend a drive by about a metre.
 VELOCITY_WEIGHT = 1.0  # s
 SPIN_WEIGHT = 0.01  # m s
 
@@ -23,50 +23,50 @@ NO_CHANGE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 @generic
 def tableau(method, brief):
-    """Butcher's table of `method`: a row a stage; the last row is the solution's weights.
+    """Butcher tableau of `method`: a row a stage; the last row is the solution's weights.
 
-    So the last stage holds the rates at the step's end, which the next step starts from. Of a `brief` step
-    it may be one of fewer stages.
+    So the last stage is evaluated at the step's end and is the first of the next step (FSAL). For a `brief`
+    step the tableau may have fewer stages.
     """
     return NO_TABLE
 
 
 @generic
 def error_weights(method, brief):
-    """Weights of the stages in the difference to the embedded method; empty where there is none."""
+    """Weights of the stages in the embedded error estimate; zero where there is none."""
     return NO_ERROR
 
 
 @generic
 def allowed(method, ball):
-    """How far [m] a step of the ball's may err."""
+    """Tolerance [m] of a step of the ball."""
     return inf
 
 
 @generic
 def first_step(method, speed, hop, most):
-    """Length [s] of the first step at `speed` through the air, of a flight of about `hop` seconds.
+    """Length [s] of the first step, and whether it is brief; see `tableau`.
 
-    It may err by `most` [m]. And whether it is brief: see `tableau`.
+    At `speed` [m/s] through the air, of a flight of about `hop` seconds, with a tolerance of `most` [m].
     """
     return 0.01, False
 
 
 @generic
 def stands(method, h, error, most):
-    """Whether a step of `h` with an `error` [m] may stand that may err by `most`."""
+    """Whether a step of `h` [s] with that `error` [m] is accepted at the tolerance `most`."""
     return True
 
 
 @generic
 def next_step(method, h, error, most):
-    """Length [s] of the step after one of `h` with an `error` [m], or of that again if it can't stand."""
+    """Length [s] of the step after one of `h` with that `error` [m], or of its repetition if rejected."""
     return h
 
 
 @kernel
 def stage(model, ball, i, state):
-    """Write stage `i`: rates of `state`, the position, velocity and spin in one tuple."""
+    """Evaluate stage `i` at `state`, position, velocity and spin in one tuple. Writes stages, evaluations."""
     x, y, z, u, v, w, p, q, r = state
     force, torque = rates(model, ball, (x, y, z), (u, v, w), (p, q, r))
     row = ball['stages'][i]
@@ -78,7 +78,7 @@ def stage(model, ball, i, state):
 
 @kernel
 def mix(ball, weights, count, h):
-    """`h` times the sum of `weights` times the first `count` stages, as one tuple."""
+    """Linear combination of the first `count` stages by `weights`, times `h`, as one tuple."""
     k = ball['stages']
     x = y = z = u = v = w = p = q = r = 0.0
     for j in range(count):
@@ -97,7 +97,7 @@ def mix(ball, weights, count, h):
 
 @kernel
 def state_after(ball, change):
-    """The ball's state plus `change`, as one tuple."""
+    """State of the ball plus `change`, as one tuple."""
     a = ball['position']
     b = ball['velocity']
     c = ball['spin']
@@ -108,7 +108,7 @@ def state_after(ball, change):
 
 @kernel
 def error_in_metres(ball, weights, h):
-    """Weighted size of the embedded error estimate."""
+    """Embedded error estimate [m]: a weighted Euclidean norm."""
     e = mix(ball, weights, len(weights), h)
     return sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
                 + VELOCITY_WEIGHT * VELOCITY_WEIGHT * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
@@ -117,7 +117,7 @@ def error_in_metres(ball, weights, h):
 
 @kernel
 def start(model, ball, last):
-    """Write the first stage: where the segment goes on from a whole step, that step's `last` one."""
+    """Write the first stage: after a whole step that step's `last` one (FSAL), else a new evaluation."""
     goes_on = ball['step'] > 0.0 and ball['last_stage_time'] == ball['begin'] and not ball['time_stepping']
     if ball['phase'] == FLIGHT and goes_on:
         ball['stages'][0] = ball['stages'][last]
@@ -127,7 +127,7 @@ def start(model, ball, last):
 
 @kernel
 def longest(model, ball, wanted):
-    """Longest step [s], `wanted` at most, that can't overlook any effect. Reads the first stage."""
+    """Longest step [s], `wanted` at most, that can't overlook any effect, by the rates of the first stage."""
     if ball['phase'] != FLIGHT:
         return wanted
     state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
@@ -136,14 +136,14 @@ def longest(model, ball, wanted):
 
 @kernel
 def airspeed(model, ball):
-    """Speed [m/s] of the ball through the air around it."""
+    """Airspeed [m/s] of the ball."""
     return length(sub(load(ball['velocity']),
                       wind_at(model.effects, model.land.ground, load(ball['position']))))
 
 
 @kernel
 def hop(model, ball):
-    """About how long [s] a ball that has just left a surface stays off it: as without air."""
+    """Estimate of the time [s] for which a ball that has just left a surface stays off it, without air."""
     normal = load(ball['normal'])
     pressing = -dot(gravity_at(model.effects, load(ball['position'])), normal)
     leaving = dot(load(ball['velocity']), normal)
@@ -152,7 +152,10 @@ def hop(model, ball):
 
 @generic
 def step_by(method, model, ball):
-    """Lay the next segment: one step from the ball's state. Writes curve, span, step."""
+    """Plan the next segment: one step from the ball's state.
+
+    Writes curve, span, step, stages, last_stage_time, ending.
+    """
     h = ball['step']
     begins = h == 0.0
     brief = False
@@ -164,6 +167,7 @@ def step_by(method, model, ball):
     last = len(rows) - 1
     start(model, ball, last)
     whole = h
+    # What an effect does between the stages would not show in the error estimate.
     h = longest(model, ball, h)
     while True:
         change = NO_CHANGE
@@ -174,12 +178,12 @@ def step_by(method, model, ball):
         if stands(method, h, error, most):
             break
         h = next_step(method, h, error, most)
-    # The first step is often the last. Where nothing cut it, the next is as long: that spares a root.
+    # The first step is often the last one: unless it was cut, the next is as long, which saves a root.
     ball['step'] = h if begins and h == whole else next_step(method, h, error, most)
     first = ball['stages'][0]
     final = ball['stages'][last]
     ball['span'] = h
-    # Another table has its last stage elsewhere.
+    # After a brief step the last stage stands in another row than the next step looks for it.
     ball['last_stage_time'] = -1.0 if brief else ball['begin'] + h
     store(ball['origin'], load(ball['position']))
     store(ball['spin_coefficients'][3], add_scaled(

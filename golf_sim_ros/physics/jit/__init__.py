@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Kernels: plain Python functions that numba compiles where a play calls for it.
+"""Kernels: plain Python functions that numba compiles where a play needs it.
 
 ``@kernel`` and ``@shared`` mark a function that other kernels call, ``@entry`` one that Python calls, too.
-``@generic`` makes a function that picks its body by the type of its first argument; compiled, the choice is
-made once, when the kernel is. All of them stay plain Python functions: who calls one runs Python. What
-`compiled` gives for an entry is machine code. So both engines live in one process, and nothing here imports
-numba until `compiled` is asked for:
+``@generic`` makes a function that dispatches on the type of its first argument; in compiled code that happens
+at compile time. All of them stay plain Python functions: calling one runs Python. `compiled` gives the
+machine code of an entry. So both engines live in one process, and nothing here imports numba before
+`compiled` is called:
 
 =============  =========================================================================
 `backend`      compiles; with `linking` and `reference` the only modules that know numba
@@ -17,33 +17,33 @@ import inspect
 import time
 
 KERNEL, SHARED, ENTRY = 'kernel', 'shared', 'entry'
-ROLES = {}  # what each function is compiled as
+ROLES = {}  # by function: what it is compiled as
 GENERICS = []
 
 
 def kernel(function):
-    """`function`, to be compiled for every combination of argument types it meets, for other kernels.
+    """Mark `function` as a kernel for other kernels, inlined where it is called.
 
-    It is copied to where it is called: a shot takes a quarter of the time that calls would.
+    It is compiled for every combination of argument types. Inlined, a shot takes a quarter of the time.
     """
     ROLES[function] = KERNEL
     return function
 
 
 def shared(function):
-    """`function` as a kernel that is there once and called: large, or seldom run."""
+    """Mark `function` as a kernel that is not inlined: large, or seldom run."""
     ROLES[function] = SHARED
     return function
 
 
 def entry(function):
-    """`function` as a kernel that Python can call, too: compiled by `compiled`, else as it is."""
+    """Mark `function` as a kernel that Python can call, too: compiled by `compiled`, else as it is."""
     ROLES[function] = ENTRY
     return function
 
 
 def generic(default):
-    """`default` as a function that has another body for every registered record type.
+    """Make `default` a function with another body for every registered record type.
 
     ``@name.register(Record)`` adds a body. Like functools.singledispatch, but kernels can call it
     and the choice is made when they compile.
@@ -71,17 +71,17 @@ def generic(default):
 
 
 def parameters(function):
-    """Names of a function's parameters, as text: numba matches bodies of a generic by them."""
+    """Names of a function's parameters, as text: numba requires the same ones of all bodies of a generic."""
     return ', '.join(inspect.signature(function).parameters)
 
 
 def literal_unroll(records):
-    """`records`: plain Python loops over any tuple; compiled, the loop is unrolled by the records' types."""
+    """Unroll a loop over the tuple `records` by their types, in compiled code; the tuple itself in Python."""
     return records
 
 
 def borrowed(record):
-    """`record` by reference, its arrays not counted: for an entry's arguments, which the caller keeps alive.
+    """Pass `record` by reference, uncounted: an entry's argument, which the caller keeps alive.
 
     numba hands a record from kernel to kernel by value, a model with its dozens of arrays as hundreds
     of numbers, and counts references to each array. By reference it is one pointer; its fields are
@@ -91,12 +91,12 @@ def borrowed(record):
 
 
 def cycles():
-    """Count of the processor's cycles, of a steady rate; in plain Python nanoseconds, where unknown 0."""
+    """Processor's cycle counter, of a constant rate; in plain Python nanoseconds, where unknown 0."""
     return time.perf_counter_ns()
 
 
 def compiled(function):
-    """What calls the machine code of an entry; loads numba, and compiles what is not in the cache.
+    """Callable with the machine code of an entry; imports numba, and compiles what is not in the cache.
 
     Raises
     ------
@@ -108,4 +108,4 @@ def compiled(function):
 
 
 class Unavailable(RuntimeError):
-    """There is no compiled engine here; the message says why."""
+    """The compiled engine is not available; the message says why."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From kernels to machine code, with numba: what each function is compiled to, once somebody asks."""
+"""Compilation of kernels with numba, on demand: the only way from `ROLES` to machine code."""
 import os
 
 from . import (ENTRY, GENERICS, ROLES, SHARED, Unavailable, borrowed, cache as cache_, cycles, literal_unroll,
@@ -19,10 +19,10 @@ except ImportError as error:  # also a numba that does not work with this numpy
 from . import linking, reference
 from .kept import keep_compiled
 
-# That 0 and -0 are one changes results in no more than that, and spares an addition for each silent effect.
+# No signed zeros: results differ in the sign of zero only, and an effect that adds zero costs no addition.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
 DISPATCHERS = {}  # by function
-REGISTERED = set()  # generics that numba knows
+REGISTERED = set()  # generics that are declared to numba
 CACHE = cache_.folder()
 
 if CACHE.path and not os.environ.get('NUMBA_CACHE_DIR'):
@@ -30,13 +30,13 @@ if CACHE.path and not os.environ.get('NUMBA_CACHE_DIR'):
 
 
 def dispatcher(function):
-    """What compiles the entry `function` for the types it is called with, or finds it in the cache."""
+    """Dispatcher of the entry `function`: compiles it for the types of a call, or loads it from the cache."""
     declare()
     return DISPATCHERS[function]
 
 
 def declare():
-    """Tell numba of all kernels and generics that there are by now; effects may have come since."""
+    """Declare all kernels and generics to numba; effects may have been registered since the last time."""
     for function, role in list(ROLES.items()):
         if function not in DISPATCHERS:
             DISPATCHERS[function] = made = new_dispatcher(function, role)
@@ -51,7 +51,7 @@ def declare():
 
 
 def new_dispatcher(function, role):
-    """What numba makes of `function`, nothing compiled yet."""
+    """New dispatcher of `function` in its `role`, with nothing compiled yet."""
     if role == ENTRY:
         return keep_compiled(numba.njit(**OPTIONS)(function), CACHE)
     made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(function)
@@ -59,14 +59,14 @@ def new_dispatcher(function, role):
 
 
 def unroll(function):
-    """Let a function's module name numba's own `literal_unroll`, for which numba looks."""
+    """Bind numba's own `literal_unroll` in a function's module, where numba looks for it by identity."""
     names = function.__globals__
     if names.get('literal_unroll') is literal_unroll:
         names['literal_unroll'] = numba.literal_unroll
 
 
 def declare_generic(generic):
-    """Let numba pick the body of a generic by the type of its first argument."""
+    """Declare a generic to numba as an overload on the type of its first argument."""
     def pick(record, *_):
         return generic.cases.get(getattr(record, 'instance_class', None), generic.default)
 
@@ -79,7 +79,7 @@ def declare_generic(generic):
 
 
 def stand_for(function, intrinsic):
-    """Let compiled kernels use an `intrinsic` where they name a plain `function`."""
+    """Make compiled kernels use an `intrinsic` where they call a plain `function`."""
     infer_global(function, cpu_target.typing_context.resolve_value_type(intrinsic))
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Compiling in a child process: it keeps the compiler's memory, and its crashes, to itself.
+"""Compilation in a child process, which keeps the compiler's memory, and its crashes, to itself.
 
 As a program, ``python -m golf_sim_ros.physics.jit.build`` reads a pickled `Job` and runs it, so that what it
-needs is compiled and in the cache afterwards. Lines of its output tell how far it is.
+needs is compiled and in the cache afterwards. It writes its progress to stdout, a share a line.
 """
 from contextlib import contextmanager
 import hashlib
@@ -23,12 +23,12 @@ from . import GENERICS, Unavailable, cache
 COMPILING, LOADING, READY, BUILD_FAILED = 'compiling', 'loading', 'ready', 'failed'
 ORDINARY_LINKING = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
 PROGRAM = 'golf_sim_ros.physics.jit.build'
-LOW = 10  # niceness of a child for which nobody waits: a tenth of what others get, but never nothing
+LOW = 10  # niceness of a child that is not urgent: a tenth of the time of others, but never none
 INSTALL = "pip install numba, in a virtual environment made with 'python3 -m venv --system-site-packages'"
 
 
 def missing():
-    """Why there can be no compiled engine here, one line, or ''; numba is looked for and not imported."""
+    """Reason why there can be no compiled engine here, one line, or ''; numba is not imported for it."""
     if importlib.util.find_spec('numba') is None:
         return f'numba is not installed: {INSTALL}'
     if os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0'):
@@ -37,7 +37,7 @@ def missing():
 
 
 class Part(NamedTuple):
-    """The program called `key`, of which ``function(*args)`` runs all."""
+    """Program called `key`, all of which ``function(*args)`` runs."""
 
     key: str
     function: Callable
@@ -45,7 +45,7 @@ class Part(NamedTuple):
 
 
 class Job(NamedTuple):
-    """What a child of some `niceness` does: import `modules`, which may register effects; run `parts`."""
+    """Job of a child of some `niceness`: import `modules`, which may register effects, and run `parts`."""
 
     niceness: int
     modules: tuple
@@ -55,7 +55,7 @@ class Job(NamedTuple):
 class Build:
     """Compiled code on its way: a child compiles what `parts` need, then this process loads it.
 
-    It begins at once, in a thread; the child has a low priority, unless it is `urgent`: somebody waits.
+    It starts at once, in a thread; the child has a low priority, unless it is `urgent`.
     `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the share of the compilation that is
     done, `reason` one line that says why it failed.
     """
@@ -67,7 +67,7 @@ class Build:
         Thread(target=self._run, name='build of the physics', daemon=True).start()
 
     def wait(self, seconds=None):
-        """Whether it has ended, after `seconds` at most."""
+        """Wait for the end of the build, `seconds` at most; whether it has ended."""
         return self.ended.wait(seconds)
 
     def _run(self):
@@ -89,14 +89,14 @@ class Build:
             if not cache.folder().writable:
                 raise Unavailable(cache.folder().reason)
             trouble = self._compile({})
-            # The private parts may be what this numba does not like.
+            # The internals of numba that are used may be what fails: once more without them.
             if trouble and self._compile(ORDINARY_LINKING):
                 raise Unavailable(trouble)
         self.state = LOADING
         run_child(self.job.parts)
 
     def _compile(self, environment):
-        """Why a child could not compile, or ''."""
+        """Compile in a child; the reason why it could not, or ''."""
         if '__main__' in self.job.modules:
             raise Unavailable('effects of the main program cannot be handed to a child process; '
                               'put them into a module')
@@ -121,7 +121,7 @@ class Build:
             self.child.stdin.write(job)
             self.child.stdin.flush()
         except BrokenPipeError:
-            pass  # it has ended, and its exit code says why
+            pass  # the child has ended, and its exit code says why
 
 
 def foreign_modules():
@@ -143,7 +143,7 @@ def mark(key):
 
 
 def processor():
-    """What machine code is for: what NUMBA_CPU_NAME says, or else all that Linux tells of this processor."""
+    """Target processor of the machine code: NUMBA_CPU_NAME, or else all that Linux reports of this one."""
     named = os.environ.get('NUMBA_CPU_NAME', '') + os.environ.get('NUMBA_CPU_FEATURES', '')
     try:
         with open('/proc/cpuinfo', encoding='utf-8') as file:
@@ -154,7 +154,7 @@ def processor():
 
 
 def trouble(code, errors):
-    """What went wrong, in one line: from a child's exit code and the last of what it wrote."""
+    """Reason of a child's failure in one line, from its exit code and the last of its output; '' if none."""
     if code == 0:
         return ''
     lines = [line.strip() for line in errors.splitlines() if line.strip()]
@@ -188,7 +188,7 @@ def main():
 
 @contextmanager
 def is_alone_in_process():
-    """No other child compiles on this machine as long as this lasts: it may be the same that both need."""
+    """Lock across processes: no other child compiles meanwhile, for it may be what this one needs, too."""
     import fcntl
     with open(cache.folder().path / 'lock', 'w') as file:
         fcntl.flock(file, fcntl.LOCK_EX)
@@ -196,13 +196,13 @@ def is_alone_in_process():
 
 
 def run_child(parts):
-    """Run `parts`: what they need is compiled then, or loaded."""
+    """Run `parts`, which compiles or loads what they need."""
     for part in parts:
         part.function(*part.args)
 
 
 def end_with_parent():
-    """End this process as soon as nobody holds the other end of its input."""
+    """End this process as soon as its stdin is closed: its parent has ended."""
     while os.read(0, 1):
         pass
     os._exit(1)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Where compiled code is kept on disk, and whether what lies there may be run.
+"""Cache folder of compiled code, and whether its content can be trusted.
 
-Compiled code is kept as pickles: who loads it runs it. So it is read only where nobody but this user
-and root can have put it.
+Compiled code is stored as pickles: loading runs it. So it is read only where nobody but this user and root
+can have put it.
 """
 import hashlib
 import os
@@ -22,14 +22,14 @@ LEAST_SPACE = 1 << 16      # bytes that a folder has to take in to count as writ
 
 
 class Cache(NamedTuple):
-    """Where compiled code is read and written.
+    """Folder where compiled code is read and written.
 
     Parameters
     ----------
     path : Path or None
-        The folder, absolute; None where nothing can be trusted and nothing kept.
+        The folder, absolute; None where no folder can be trusted.
     writable : bool
-        Whether new code may be kept there, too.
+        Whether new code may be saved there, too.
     reason : str
         One line: why it is not the place that it would be by default, or not writable. Else empty.
     """
@@ -40,12 +40,12 @@ class Cache(NamedTuple):
 
 
 class _Refused(Exception):
-    """A folder that is not used; one line says why."""
+    """A folder that is refused; one line says why."""
 
 
 @lru_cache(maxsize=None)
 def source_key():
-    """Digest of all sources of the physics, as they were when it was first asked for."""
+    """Hash of all sources of the physics, as they were at the first call."""
     top = Path(__file__).parent.parent
     digest = hashlib.sha256()
     for source in sorted(top.rglob('*.py')):
@@ -55,7 +55,7 @@ def source_key():
 
 
 def folder():
-    """`Cache` for this user and these sources, made where there is none.
+    """`Cache` for this user and these sources, created where there is none.
 
     The variable GOLF_SIM_ROS_CACHE names the folder, or else NUMBA_CACHE_DIR does, which holds no
     folder for each version of the sources. Otherwise it is the first that can be used of the user's
@@ -88,7 +88,7 @@ def _named(variable, inside):
 
 
 def _user_cache():
-    """The user's cache; a home that is not there is not made."""
+    """Folder in the user's cache; a home that does not exist is not created."""
     cache = os.environ.get('XDG_CACHE_HOME', '')
     if os.path.isabs(cache):
         return Path(cache) / NAME
@@ -101,13 +101,13 @@ def _user_cache():
 
 
 def _temporary():
-    """A folder of this user's own among the temporary ones."""
+    """Folder of this user's own among the temporary ones."""
     place = os.environ.get('TMPDIR', '')
     return Path(place if os.path.isdir(place) else FALLBACK) / f'{NAME}_{_user()}'
 
 
 def _opened(path):
-    """`Cache` at `path`, which is made, for this user alone, where there is none."""
+    """`Cache` at `path`, which is created, for this user alone, where there is none."""
     try:
         path = Path.cwd() / path
         _check_way(path)
@@ -124,7 +124,7 @@ def _opened(path):
 
 
 def _make(path):
-    """Make a folder that nobody else can enter, unless something is there."""
+    """Create a folder that nobody else can enter, unless something is there."""
     if not os.path.lexists(path):
         try:
             os.mkdir(path, 0o700)
@@ -133,10 +133,10 @@ def _make(path):
 
 
 def _check_way(path):
-    """Raise `_Refused` if others can change what is found at `path`; what is not there they cannot.
+    """Raise `_Refused` if others can change what is found at `path`; what does not exist they can't.
 
-    Every folder and link on the way has to belong to this user or root. Others may write to none of
-    them, but to a temporary folder, where they can't remove what is not theirs (the sticky bit).
+    Every folder and link on the way has to belong to this user or root. Others may write to none of them,
+    except to a temporary folder, where they can't remove what is not theirs (the sticky bit).
     """
     here, ahead, links, shared = Path(), list(path.parts), 0, False
     while ahead:
@@ -162,9 +162,9 @@ def _check_way(path):
 
 
 def _check_inside(top):
-    """Raise `_Refused` if something in the folder `top` could be somebody else's.
+    """Raise `_Refused` if something in the folder `top` could have been written by others.
 
-    Where others can't even enter it, they can't write what is in it, whatever its mode says.
+    Where others can't even enter it, they can't write its content, whatever the modes are.
     """
     closed = not top.stat().st_mode & OTHERS_ENTER
     for place, folders, files in os.walk(top, onerror=_raise):
@@ -187,7 +187,7 @@ def _raise(error):
 
 
 def _user():
-    """Number of this user; 0, the owner of everything, where users have none."""
+    """Effective user id; 0, the owner of everything, where there are no user ids."""
     return os.geteuid() if os.name == 'posix' else 0
 
 
@@ -197,9 +197,9 @@ def _is_ours(status):
 
 
 def _is_outside(status):
-    """Whether something belongs to a user who does not exist in this namespace of users.
+    """Whether something belongs to a user outside of this user namespace.
 
-    There the root folder of the machine may belong to nobody, and it is no less safe for that.
+    There the root folder of the machine may belong to nobody, which is no less safe.
     """
     try:
         nobody = int(Path('/proc/sys/kernel/overflowuid').read_text())
@@ -211,7 +211,7 @@ def _is_outside(status):
 
 
 def _unwritable(path):
-    """Why nothing more can be kept in the folder `path`, or ''."""
+    """Reason why nothing more can be saved in the folder `path`, or ''."""
     try:
         with tempfile.TemporaryFile(dir=path, buffering=0) as file:
             full = file.write(bytes(LEAST_SPACE)) < LEAST_SPACE

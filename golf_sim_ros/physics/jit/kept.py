@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How the machine code of entries is kept on disk, where numba's own way does not do.
+"""Disk cache of the machine code of entries, where numba's own does not do.
 
-numba numbers the files of a function without a lock: two processes that keep code for different types at
-one time may end with the one's code under the other's name, and who loads that crashes. And it passes over a
-folder that can only be read, as in an image built as root and run by others. Private parts of numba, the
-same in versions 0.56 to 0.68.
+numba numbers the files of a function without a lock: two processes that save code for different types at the
+same time may end with the one's code under the other's name, and loading that crashes. And it ignores a
+read-only folder, as in an image built as root and run by others. Internals of numba, the same in versions
+0.56 to 0.68.
 """
 from contextlib import contextmanager
 
@@ -16,19 +16,19 @@ LOCATOR = getattr(caching, 'UserProvidedCacheLocator', None) or caching._UserPro
 
 
 class _Alone(caching.FunctionCache):
-    """Keeps code while no other process does."""
+    """Cache that saves code while no other process does."""
 
     def save_overload(self, sig, data):
-        """Keep the code of one signature."""
+        """Save the code of one signature."""
         with one_at_a_time():
             super().save_overload(sig, data)
 
 
 class _InPlace(LOCATOR):
-    """The folder as it is."""
+    """Locator of the folder as it is."""
 
     def ensure_cache_path(self):
-        """Let it be: numba would try to write there."""
+        """Leave the folder alone: numba would try to write there."""
 
 
 class _Found(caching.CompileResultCacheImpl):
@@ -36,17 +36,17 @@ class _Found(caching.CompileResultCacheImpl):
 
 
 class _ReadOnly(caching.FunctionCache):
-    """Finds what is there, and keeps nothing."""
+    """Cache that loads code and saves none."""
 
     _impl_class = _Found
 
     def save_overload(self, sig, data):
-        """Keep nothing."""
+        """Save nothing."""
 
 
 @contextmanager
 def one_at_a_time():
-    """No other process keeps code in the same folder as long as this lasts."""
+    """Lock across processes: no other one saves code in the same folder meanwhile."""
     try:
         import fcntl
     except ImportError:  # not on this system
@@ -58,7 +58,7 @@ def one_at_a_time():
 
 
 def keep_compiled(dispatcher, folder):
-    """`dispatcher` of an entry, which keeps its code in a `cache.Cache` or at least finds it there."""
+    """Give the `dispatcher` of an entry a disk cache in a `cache.Cache`, read-only if that is."""
     if folder.path:
         dispatcher._cache = (_Alone if folder.writable else _ReadOnly)(dispatcher.py_func)
     return dispatcher

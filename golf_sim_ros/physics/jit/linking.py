@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Inner kernels are linked as drafts and optimised once, where they end up: private parts of numba.
+"""Linking of inner kernels as unoptimised drafts, which are optimised once, in the entry: internals of numba.
 
-numba would optimise at every level of calls, with all that is called below. The parts used here are known
-to do what they do in the versions of `KNOWN`; with others kernels are compiled the ordinary way.
+numba would optimise at every level of calls, with all that is called below. The internals used here are known
+in the versions of `KNOWN`; with others kernels are compiled the ordinary way.
 """
 import os
 
@@ -17,12 +17,12 @@ ORDINARY = 'GOLF_SIM_ROS_ORDINARY_LINKING'  # set: numba's own way, whatever the
 
 
 def is_known():
-    """Whether the private parts of this numba are known."""
+    """Whether the internals of this numba are known."""
     return KNOWN[0] <= VERSION < KNOWN[1] and not os.environ.get(ORDINARY)
 
 
 def options(apart):
-    """Options with which numba compiles an inner kernel; `apart`: it is called, not copied."""
+    """Options with which numba compiles an inner kernel; `apart`: it is called, not inlined."""
     if not is_known():
         return {}  # forceinline would take ten times as long: all is optimised at every level
     # forceinline has to be denied: numba hands a caller's down to what it calls.
@@ -30,17 +30,17 @@ def options(apart):
 
 
 def inner(dispatcher):
-    """The `dispatcher` of a kernel that only kernels call."""
+    """Dispatcher of a kernel that only kernels call, changed to compile as such."""
     if is_known():
         dispatcher.__class__ = _Inner
     return dispatcher
 
 
 class _Inner(CPUDispatcher):
-    """A kernel that is compiled no more often than its arguments' types differ."""
+    """Dispatcher of a kernel that is compiled once for all literals of a type."""
 
     def get_call_template(self, args, kws):
-        """What to call for arguments of these types: a constant needs no code of its own."""
+        """Call template for these argument types, without literals: a constant needs no code of its own."""
         return super().get_call_template([types.unliteral(a) for a in args],
                                          {name: types.unliteral(a) for name, a in kws.items()})
 

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How far a compilation is, by the functions that numba has compiled."""
+"""Progress of a compilation, by the functions that numba has compiled."""
 from contextlib import contextmanager
 
 from numba.core import event
 
-FUNCTIONS, MORE = 520, 90  # of a first program, about, and of one more; each takes about as long
+FUNCTIONS, MORE = 520, 90  # functions of a first program, and of one more; each takes about as long
 LEFT_TO_LINK = 0.97  # at the end everything is linked and optimised once more
 
 
 class Counter(event.Listener):
-    """Writes the share that is done of some `programs` into `file` whenever it has grown by a percent."""
+    """Listener that writes the share done of some `programs` to `file` whenever it has grown by a percent."""
 
     def __init__(self, file, programs):
         self.file, self.count, self.told = file, 0, 0.0
@@ -29,7 +29,7 @@ class Counter(event.Listener):
 
 @contextmanager
 def telling_progress(file, programs):
-    """Write lines with the share that is done of some `programs` into `file`, as long as this lasts."""
+    """Context in which lines with the share done of some `programs` are written to `file`."""
     counter = Counter(file, programs)
     event.register('numba:compile', counter)
     try:

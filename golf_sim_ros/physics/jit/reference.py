@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What kernels do that Python cannot say: records by reference, the processor's cycles."""
+"""Intrinsics of kernels without an equivalent in Python: records by reference, the processor's cycles."""
 import platform
 
 from llvmlite import ir
@@ -71,7 +71,7 @@ def _load(context, builder, field, pointer):
 
 
 def _view(context, builder, array, value):
-    """The array without its owner, so that nobody counts references to it."""
+    """View of the array without its owner, so that references to it are not counted."""
     view = context.make_array(array)(context, builder, value)
     view.meminfo = view.meminfo.type(None)
     view.parent = view.parent.type(None)

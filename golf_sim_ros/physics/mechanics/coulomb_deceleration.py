@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A braked particle on a slope, in closed form: u' = G ex - a u/|u|.
+"""Coulomb deceleration of a particle on a slope, in closed form: u' = G ex - a u/|u|.
 
-Slip on a plane and rolling against rolling resistance are both this. In parabolic coordinates,
+Slip on a plane under friction and rolling under rolling resistance are both this. In parabolic coordinates,
 u = (P^2 - Q^2) ex + 2 P Q ey with speed s = P^2 + Q^2, and with dt = s dq instead of time, the
-motion is linear: P' = -(a - G)/2 P, Q' = -(a + G)/2 Q. So speed, direction, time and way are sums of
-exponentials of q; q grows without end as the particle stops, and the stop itself is one of its
+motion is linear: P' = -(a - G)/2 P, Q' = -(a + G)/2 Q. So speed, direction, time and displacement are sums
+of exponentials of q; q grows without bound as the particle stops, and the stop itself is one of its
 values: q = inf. (Levi-Civita's regularization of the Kepler problem is the same substitution.)
 A particle that starts from rest goes straight down the slope; there q is the time itself.
 """
@@ -18,12 +18,12 @@ from .vector import add, add_scaled, cross, dot, length, scale, unit
 MOST_EXPONENT = 690.0  # of exp in double precision
 UNREACHED = 1e300
 MOST_ROUNDS = 200
-FAR_TOO_LONG = 4.0  # times too long: of a parameter from which Newton's method is slow
-EXACT = 1e-9  # of the parameter: a correction after which only rounding is left
+FAR_TOO_LONG = 4.0  # ratio of times beyond which Newton's method is slow, and bisection takes over
+EXACT = 1e-9  # of the parameter: after so small a correction, which squares the error, only rounding is left
 
 
 class Braked(NamedTuple):
-    """Start of a braked motion: squares of P and Q, both unit vectors, slope G and brake a."""
+    """Initial state of a decelerated motion: squares of P and Q, both unit vectors, slope G and brake a."""
 
     pp: float
     qq: float
@@ -39,6 +39,7 @@ def decelerated(u, pull, brake, normal):
 
     `u` and `pull` lie in the plane of `normal`. At rest it heads down the slope.
     """
+    # P^2 or Q^2 as (s +- u_x) / 2 cancels where the other is large: it is found from u_y = 2 P Q instead.
     slope = length(pull)
     speed = length(u)
     down = unit(pull, unit(u, (1.0, 0.0, 0.0)))
@@ -58,7 +59,7 @@ def decelerated(u, pull, brake, normal):
 
 @kernel
 def _sum(weight, rate, q):
-    """`weight` times the integral of exp(-`rate` q) from 0 to q."""
+    """Integral of `weight` exp(-`rate` q) from 0 to q."""
     if weight == 0.0 or q == 0.0:
         return 0.0
     if rate == 0.0:
@@ -70,7 +71,7 @@ def _sum(weight, rate, q):
 
 @kernel
 def _shrunk(weight, rate, q):
-    """`weight` exp(-`rate` q)."""
+    """Value of `weight` exp(-`rate` q), without overflow or infinity times zero."""
     if weight == 0.0 or (q == inf and rate > 0.0):
         return 0.0
     if rate * q < -MOST_EXPONENT:
@@ -80,7 +81,7 @@ def _shrunk(weight, rate, q):
 
 @kernel
 def starts_at_rest(motion):
-    """Whether the particle has no speed yet."""
+    """Whether the particle is at rest at the start."""
     return motion.pp + motion.qq == 0.0
 
 
@@ -96,7 +97,7 @@ def stops(motion):
 
 @kernel
 def after(motion, q):
-    """Time, velocity and way at the parameter `q`."""
+    """Time, velocity and displacement at the parameter `q`."""
     slower = motion.brake - motion.slope
     faster = motion.brake + motion.slope
     if starts_at_rest(motion):
@@ -117,7 +118,8 @@ def after(motion, q):
 
 @kernel
 def rate(motion, velocity):
-    """Acceleration at `velocity`; at rest that with which it came to rest or leaves it."""
+    """Acceleration at `velocity`; at rest the limit with which the particle comes to rest or leaves it."""
+    # A braked particle comes to rest moving straight down the slope, or straight up it where P is zero.
     speed = length(velocity)
     pull = scale(motion.slope, motion.down)
     if speed > 0.0:
@@ -130,7 +132,7 @@ def rate(motion, velocity):
 
 @kernel
 def half_way(motion, q):
-    """A parameter at about half of the time to `q`: where it is infinite, at half the speed."""
+    """Parameter at about half the time to `q`, or, where that is infinite, at half the speed."""
     if q < inf:
         return 0.5 * q
     slowing = (motion.pp * (motion.brake - motion.slope)
@@ -144,9 +146,8 @@ def half_way(motion, q):
 def parameter_at(motion, time):
     """Parameter q at `time` [s], which must lie before the stop.
 
-    Newton's method, kept inside a bracket; its last correction squares the error. From far beyond, where time
-    grows as an exponential, it would come back by no more than the exponent's unit a round: there the bracket
-    is halved.
+    Newton's method, safeguarded by a bracket. From far beyond, where time grows exponentially, it would come
+    back by no more than a unit of the exponent an iteration: there the bracket is bisected.
     """
     if starts_at_rest(motion):
         return time

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One collision law: ball against ground, ball against ball, ball against obstacle.
+"""Impulse of a frictional impact: ball against ground, ball against ball, ball against obstacle.
 
-Normal: (1 + e) times the approach. Tangential: what grip needs, times one plus the tangential
-restitution, at most dynamic friction times the normal impulse. Fixed ground has no inverse mass.
+Normal: (1 + e) times the approach (Newton's restitution). Tangential: what stops the slip, times one plus the
+tangential restitution, at most dynamic friction times the normal impulse (Coulomb). Fixed ground has no
+inverse mass.
 """
 from typing import NamedTuple
 
@@ -11,7 +12,7 @@ from .vector import add_scaled, cross, dot, length, store, scale, load
 
 
 class ContactProperties(NamedTuple):
-    """What a pair brings to an impact.
+    """Properties of a pair in contact.
 
     ``restitution``, ``tangential`` restitution, ``friction``; ``mass``: 1 / (1/m1 + 1/m2) [kg];
     ``inertia``: moment of inertia over m r^2.
@@ -26,13 +27,15 @@ class ContactProperties(NamedTuple):
 
 @kernel
 def slip(velocity, spin, normal, radius):
-    """Velocity of the ball's material point that touches ground of `normal`, along the ground."""
+    """Slip [m/s]: tangential velocity of the ball's material point at the contact of `normal`."""
     return add_scaled(add_scaled(velocity, -dot(velocity, normal), normal), -radius, cross(spin, normal))
 
 
 @kernel
 def friction(bond, strength, sliding):
-    """Tangential impulse [N s] against `sliding` where the normal impulse has that `strength`."""
+    """Tangential impulse [N s] against the slip `sliding`, for a normal impulse of `strength` [N s]."""
+    # A tangential impulse turns the ball, too: the effective mass at the contact point is k / (1 + k) of the
+    # mass, with k the moment of inertia over m r^2.
     grip = (1.0 + bond.tangential) * bond.mass * bond.inertia / (1.0 + bond.inertia)
     needed = grip * length(sliding)
     if needed > bond.friction * strength:
@@ -42,9 +45,9 @@ def friction(bond, strength, sliding):
 
 @kernel
 def impulse(bond, velocity, spin, normal, radius):
-    """Impulse [N s] on a ball that meets what has `normal` at `velocity` relative to it.
+    """Impulse [N s] on a ball that hits a surface of `normal` at the relative velocity `velocity`.
 
-    For two balls `spin` is the sum of both spins: each turns its own surface.
+    For two balls `spin` is the sum of both spins: each turns its own surface at the contact.
     """
     strength = max(-(1.0 + bond.restitution) * bond.mass * dot(velocity, normal), 0.0)
     return add_scaled(friction(bond, strength, slip(velocity, spin, normal, radius)), strength, normal)
@@ -52,7 +55,7 @@ def impulse(bond, velocity, spin, normal, radius):
 
 @kernel
 def apply_impulse(ball, push, normal, record):
-    """Apply the impulse `push` at the ball's point opposite to `normal`. Writes velocity, spin."""
+    """Apply the impulse `push` [N s] at the contact point of `normal`. Writes velocity, spin."""
     store(ball['velocity'], add_scaled(load(ball['velocity']), 1.0 / record.mass, push))
     turn = scale(-record.radius, cross(normal, push))
     inertia = record.inertia * record.mass * record.radius * record.radius

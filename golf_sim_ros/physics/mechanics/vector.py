@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Algebra of vectors as tuples of three floats: numba keeps them in registers."""
+"""Vector algebra on tuples of three floats, which numba keeps in registers."""
 from math import sqrt
 
 from ..jit import kernel
@@ -10,13 +10,13 @@ UP = (0.0, 0.0, 1.0)
 
 @kernel
 def load(row):
-    """Copy of an array of three as a tuple."""
+    """Load an array of three as a tuple."""
     return row[0], row[1], row[2]
 
 
 @kernel
 def store(row, a):
-    """Write `a` into `row`."""
+    """Store the tuple `a` in an array of three, `row`. Writes row."""
     row[0] = a[0]
     row[1] = a[1]
     row[2] = a[2]
@@ -24,37 +24,37 @@ def store(row, a):
 
 @kernel
 def add(a, b):
-    """a + b."""
+    """Sum a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 @kernel
 def sub(a, b):
-    """a - b."""
+    """Difference a - b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @kernel
 def scale(k, a):
-    """k a."""
+    """Product k a of a number and a vector."""
     return k * a[0], k * a[1], k * a[2]
 
 
 @kernel
 def add_scaled(a, k, b):
-    """a + k b."""
+    """Sum a + k b."""
     return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]
 
 
 @kernel
 def dot(a, b):
-    """Scalar product."""
+    """Dot product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @kernel
 def cross(a, b):
-    """Vector product."""
+    """Cross product."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
@@ -66,7 +66,7 @@ def length(a):
 
 @kernel
 def unit(a, otherwise):
-    """`a` over its length, or `otherwise` where `a` is zero."""
+    """Unit vector along `a`, or `otherwise` where `a` is zero."""
     size = length(a)
     if size == 0.0:
         return otherwise
@@ -75,5 +75,5 @@ def unit(a, otherwise):
 
 @kernel
 def tangential(a, normal):
-    """Part of `a` across the unit vector `normal`."""
+    """Component of `a` orthogonal to the unit vector `normal`."""
     return add_scaled(a, -dot(a, normal), normal)

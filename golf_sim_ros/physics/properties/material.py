@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a surface does to a ball: restitution, friction, rolling resistance, softness."""
+"""Material of a surface: restitution, friction, rolling resistance, softness."""
 from typing import NamedTuple
 
 import numpy as np
@@ -12,7 +12,7 @@ STIMPMETER_SPEED = 1.83  # m/s: a ball leaves the 36 in bar at 6.00 ft/s (USGA)
 
 
 class Restitution(NamedTuple):
-    """Ratio of rebound to approach speed: ``e0 + e1 v + e2 v^2``, held at its least value.
+    """Coefficient of restitution over the approach speed: ``e0 + e1 v + e2 v^2``, held at its least value.
 
     ``v`` is the normal approach speed [m/s]; ``e1`` in s/m, ``e2`` in s^2/m^2. Past the vertex of
     the parabola, and wherever it would fall below ``floor``, the law stays constant, so it never
@@ -31,7 +31,7 @@ PENNER = Restitution(0.510, -0.0375, 0.000903, 0.120)
 
 
 class Material(NamedTuple):
-    """A surface, or what a ball is made of. Whatever is left out is 0.
+    """Material of a surface. Whatever is left out is 0.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def table(materials):
 
 @kernel
 def restitution(material, speed):
-    """Ratio of rebound to approach for a normal approach `speed` [m/s]."""
+    """Coefficient of restitution for a normal approach `speed` [m/s]."""
     e1 = material['e1']
     e2 = material['e2']
     v = speed

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What happens at an impact, and to balls that several things hold."""
+"""Collision response: impulses at impacts, and time stepping of balls with several contacts."""

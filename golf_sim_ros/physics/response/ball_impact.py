@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Balls that hit balls."""
+"""Impacts of balls with balls."""
 from ..collision import ball_interactions
 from ..collision.ball_gap import gap_between
 from ..collision.ground_contact import GENTLE_APPROACH
@@ -15,9 +15,9 @@ from ..trajectory.shot_record import mark_moved_by_ball
 from . import contact_set, simultaneous_impact
 from .time_stepping import return_to_events, begin_time_stepping
 
-RAPID_BALL_IMPACT = 1e-4  # s between impacts: of balls that are coming to lean on each other they are less
+RAPID_BALL_IMPACT = 1e-4  # s between impacts: shorter where balls are coming to rest on each other
 MANY_BALL_IMPACTS = 8
-LEAST_LOGGED_APPROACH = 0.1  # m/s of approach: slower contacts are not collisions
+LEAST_LOGGED_APPROACH = 0.1  # m/s of approach: slower impacts are neither logged nor counted as bounces
 
 
 @ball_interactions.resolve_ball_impact.register(MultiBallWorkspace)
@@ -27,16 +27,19 @@ def _bump(work, land, balls, i, now, log):
 
 @shared
 def collide_balls(land, balls, i, now, work, log):
-    """Let ball `i` collide with the ball that it meets, and all that touch. Writes motion; logs impacts."""
+    """Resolve the impact of ball `i` with its target, and with all that touches. Writes motion; logs impacts.
+
+    Impacts that follow each other ever faster hand the balls over to time stepping.
+    """
     j = balls[i]['target']
     contact_set.add_to_set(work, j)
     contact_set.synchronize(balls[j], now)
     gap, rate, _ = gap_between(balls[i], balls[j], land.ball.radius, now)
     if gap > contact_set.SIMULTANEOUS_GAP:
-        return  # the other one has got another path meanwhile
+        return  # the other ball has been given another segment since this impact was found
     stalls = now - balls[i]['begin'] < RAPID_BALL_IMPACT
     is_stepped = balls[i]['time_stepping'] or balls[j]['time_stepping']
-    if is_stepped:  # time steps pass on what they are given
+    if is_stepped:  # a pile passes the impulse on in its next time step: only this pair collides now
         contact_set.add_ball_contact(land, balls, i, j, work, now)
     else:
         contact_set.collect_contacts(land, balls, work, now, 0)
@@ -44,7 +47,7 @@ def collide_balls(land, balls, i, now, work, log):
     resume_motion(land, balls, now, work, 0)
     for ball in (balls[i], balls[j]):
         if ball['time_stepping']:
-            if rate <= -GENTLE_APPROACH:  # it hits on, and does not wait for the time step
+            if rate <= -GENTLE_APPROACH:  # a hard impact goes on at once instead of at the next time step
                 return_to_events(ball)
             continue
         ball['rapid_impacts'] = ball['rapid_impacts'] + 1 if stalls else 0
@@ -55,9 +58,9 @@ def collide_balls(land, balls, i, now, work, log):
 
 @shared
 def resolve_contact_set(land, balls, now, work, first, log):
-    """Let the involved balls collide at all contacts. Writes motion.
+    """Resolve the impact of the involved balls at all their contacts. Writes motion, motion_before, bounces.
 
-    Logs impacts, on the ground from row `first` on.
+    Logs the impacts; with the ground, those of contacts from row `first` on.
     """
     for k in range(work.count[INVOLVED]):
         mark_moved_by_ball(balls[work.involved[k]])
@@ -87,7 +90,7 @@ def _tell_bumps(work, balls, now, log):
 
 @kernel
 def store_motion_before(balls, work):
-    """Keep the involved balls' motion before the impact, for the log. Writes motion_before."""
+    """Store the involved balls' velocity and spin before the impact, for the log. Writes motion_before."""
     for k in range(work.count[INVOLVED]):
         i = work.involved[k]
         store(work.motion_before[i, 0:3], load(balls[i]['velocity']))
@@ -96,7 +99,7 @@ def store_motion_before(balls, work):
 
 @kernel
 def log_contact_impact(balls, now, row, work, log):
-    """Log an impact of a contact's ball. Returns the event, which lacks what was hit."""
+    """Log the impact of a contact's ball `a`; the event is returned without kind, material and sort."""
     ball = balls[row['a']]
     event = next_event(log)
     event['time'] = now
@@ -113,7 +116,7 @@ def log_contact_impact(balls, now, row, work, log):
 
 @kernel
 def resume_motion(land, balls, now, work, first):
-    """Let the involved balls from the `first` on go on as they now move. Writes phases and contacts."""
+    """Choose phase and contact of the involved balls, from `first` on, after an impact. Writes both."""
     for k in range(first, work.count[INVOLVED]):
         ball = balls[work.involved[k]]
         if not moves(ball['phase']):
@@ -121,6 +124,7 @@ def resume_motion(land, balls, now, work, first):
                 continue
             ball['micro_bounce_end'] = now
             ball['sleeps_on_ball'] = 0
+        # A ball that the impact does not lift off its support keeps sliding or rolling there.
         lift = dot(load(ball['velocity']), load(ball['normal']))
         if ball['time_stepping']:
             ball['phase'] = FLIGHT

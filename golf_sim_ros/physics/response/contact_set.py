@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The contacts of one instant: balls that share an impact, what they touch, and what that touches."""
+"""Contact set of one instant: the involved balls, and their contacts with the ground and with each other.
+
+A contact set is one island: it starts with one ball and grows by whatever its balls touch.
+"""
 from ..collision import ball_interactions
 from ..collision.ball_gap import position_at, velocity_at
 from ..collision.broad_phase import next_node
@@ -14,14 +17,14 @@ from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.segment import spin as spin_at
 from ..trajectory.shot_record import update_apex
 
-SIMULTANEOUS_GAP = 1e-9  # m: what is that near is touched at the same instant
-SAME_NORMAL = 1e-9  # 1 - cosine of the angle below which two normals are one
-MOST_MEMBERS = 64
+SIMULTANEOUS_GAP = 1e-9  # m: a gap that small counts as contact at the same instant
+SAME_NORMAL = 1e-9  # 1 - cosine of the angle below which two normals are one: seams give no second contact
+MOST_MEMBERS = 64  # involved balls of an impact
 
 
 @kernel
 def synchronize(ball, now):
-    """Bring a ball to `now`, where its segment ends before its time. Writes motion, end, ending."""
+    """Bring a ball to `now` and end its segment there. Writes motion, end, ending, apex."""
     if not moves(ball['phase']):
         return
     ball['end'] = now
@@ -38,23 +41,23 @@ def synchronize(ball, now):
 
 @shared
 def collect_contacts(land, balls, work, now, known):
-    """Find all that the involved balls touch, and what that touches. Writes involved, contacts.
+    """Collect the contacts of the involved balls and of all that they touch. Writes involved, contacts.
 
-    Of the first `known` of them, the contacts with the ground are there already.
+    The first `known` balls have their contacts with the ground already.
     """
     k = 0
     while k < work.count[INVOLVED]:
         i = work.involved[k]
         if k >= known:
             collect_ground_contacts(land, balls[i], i, work, 0 if k == 0 else work.count[CONTACTS])
-        if not balls[i]['time_stepping']:  # time steps pass on what they are given
+        if not balls[i]['time_stepping']:  # a pile passes an impulse on in its next time step
             ball_interactions.collect_ball_contacts(work, land, balls, i, now)
         k += 1
 
 
 @kernel
 def add_to_set(work, i):
-    """Let ball `i`, which is where it is now, be involved."""
+    """Add ball `i`, which has been brought to the present, to the involved balls. Writes involved."""
     work.involved_index[i] = work.count[INVOLVED]
     work.involved[work.count[INVOLVED]] = i
     work.count[INVOLVED] += 1
@@ -62,7 +65,7 @@ def add_to_set(work, i):
 
 @kernel
 def clear_set(work):
-    """Let no ball be involved. Writes count, involved_index."""
+    """Empty the contact set. Writes count, involved_index."""
     for k in range(work.count[INVOLVED]):
         work.involved_index[work.involved[k]] = -1
     work.count[INVOLVED] = 0
@@ -71,7 +74,7 @@ def clear_set(work):
 
 @kernel
 def add_contact(work, a, b, part, normal):
-    """Row of a new contact of ball `a` with ball `b`, or with a part of the ground; -1 when full."""
+    """Add a contact of ball `a` with ball `b`, or with a part of the ground; its row, or -1 when full."""
     n = work.count[CONTACTS]
     if n == len(work.contacts):
         return -1
@@ -97,6 +100,7 @@ def _gather_balls(work, land, balls, i, now):
     while at >= 0:
         j = work.nodes[at]['ball']
         at = next_node(work, at + 1, low, high)
+        # A ball that is involved before this one has added the contact of the two already.
         if j == i or balls[j]['phase'] == HOLED or 0 <= work.involved_index[j] < k:
             continue
         apart = sub(here, position_at(balls[j], now))
@@ -112,19 +116,23 @@ def _gather_balls(work, land, balls, i, now):
 
 @kernel
 def add_ball_contact(land, balls, i, j, work, now):
-    """Add the contact of balls `i` and `j`."""
+    """Add the contact of balls `i` and `j`. Writes contacts."""
     n = add_contact(work, i, j, -1, unit(sub(position_at(balls[i], now), position_at(balls[j], now)), UP))
     if n >= 0:
         row = work.contacts[n]
         row['restitution'] = land.ball.restitution
         row['tangential_restitution'] = 0.0
         row['friction'] = land.ball.friction
-        row['mass'] = 0.5 * land.ball.mass
+        row['mass'] = 0.5 * land.ball.mass  # reduced mass of two equal balls
 
 
 @kernel
 def collect_ground_contacts(land, ball, i, work, begin):
-    """Contacts of ball `i` with the ground: what supports it first. Its own start at `begin`."""
+    """Add the contacts of ball `i` with the ground, its support first. Writes contacts.
+
+    The ball's own contacts start at row `begin`.
+    """
+    # One contact for each normal: coplanar parts, and faces that share the touched edge, count once.
     ground = land.ground
     place = load(ball['position'])
     if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(work, begin, load(ball['normal'])):
@@ -143,7 +151,7 @@ def collect_ground_contacts(land, ball, i, work, begin):
 
 @kernel
 def is_new_normal(work, begin, normal):
-    """Whether `normal` is none of the contacts from `begin` on."""
+    """Whether no contact from row `begin` on has this `normal`."""
     for n in range(begin, work.count[CONTACTS]):
         if dot(load(work.contacts[n]['normal']), normal) > 1.0 - SAME_NORMAL:
             return False
@@ -152,7 +160,7 @@ def is_new_normal(work, begin, normal):
 
 @kernel
 def add_ground_contact(land, ball, i, part, normal, material, work):
-    """Add the contact of ball `i` with `part`, which is of that `material`."""
+    """Add the contact of ball `i` with `part` of the ground, of that `material`. Writes contacts."""
     n = add_contact(work, i, -1, part, normal)
     if n < 0:
         return
@@ -165,7 +173,7 @@ def add_ground_contact(land, ball, i, part, normal, material, work):
 
 @kernel
 def separation_rate(balls, row):
-    """Rate at which the gap of a contact grows."""
+    """Normal relative velocity [m/s] of a contact: positive where it separates."""
     normal = load(row['normal'])
     rate = dot(load(balls[row['a']]['velocity']), normal)
     if row['b'] >= 0:
@@ -175,7 +183,7 @@ def separation_rate(balls, row):
 
 @kernel
 def count_approaching(balls, work):
-    """Number of contacts that approach: not those of what a ball rolls on, but for rounding."""
+    """Number of approaching contacts; the support of a rolling ball approaches only by rounding."""
     found = 0
     for n in range(work.count[CONTACTS]):
         found += separation_rate(balls, work.contacts[n]) < -LEAST_SPEED

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Contact solver of time stepping: impulses that keep every gap open for one more step, with friction.
+"""Contact solver of time stepping: projected Gauss-Seidel with friction and warm starting.
 
-Moreau's time stepping. Balls move in straight lines from one instant to the next, so a gap to what is
-convex shrinks by no more than its rate says: where no contact closes faster than gap over step, nothing
-overlaps at the next instant. Projected Gauss-Seidel finds the impulses, beginning with those of the step
-before. Velocities here are those half-way through a step (leapfrog), and impulses are per mass.
+Moreau's time stepping. Balls move in straight lines from one instant to the next, so a gap to a convex
+part shrinks by no more than its rate says: where no contact closes faster than gap over step, nothing
+overlaps at the next instant. So contacts are speculative: they count before they touch. Projected
+Gauss-Seidel finds the impulses, starting from those of the step before. Velocities here are those half-way
+through a step (leapfrog), and impulses are per mass.
 """
 from ..collision.ball_gap import position_at, velocity_at
 from ..collision.broad_phase import next_node
@@ -21,24 +22,24 @@ from .contact_set import is_new_normal, add_contact
 
 TIME_STEP = 1.0 / 512.0  # s; a power of two, so that instants are the same for all
 MOST_SWEEPS = 40
-CONVERGED = 2e-5  # m/s: a sweep that changes less is the last
-MOST_CORRECTIONS = 10
-OVERLAP = 1e-7  # m: more is pushed apart
-WALL = 1e-3  # least part of gravity that must press for a ball to come to rest on a surface
+CONVERGED = 2e-5  # m/s: a sweep whose greatest impulse changes less is the last
+MOST_CORRECTIONS = 10  # sweeps over penetrations
+OVERLAP = 1e-7  # m: deeper penetration is corrected
+WALL = 1e-3  # least share of gravity along the normal with which a surface is a support, and no wall
 
 
 @kernel
 def contact_reach(work):
-    """How far [m] from an involved ball something may be that it can touch before the next instant."""
+    """Contact margin [m]: what is farther away can't be touched before the next time step."""
     fastest = 0.0
     for k in range(work.count[INVOLVED]):
         fastest = max(fastest, length(load(work.solved_motion[work.involved[k], 0:3])))
-    return RESTING_GAP + 2.0 * TIME_STEP * fastest
+    return RESTING_GAP + 2.0 * TIME_STEP * fastest  # twice: two balls may approach each other
 
 
 @kernel
 def add_ground_contacts(land, ball, i, work, reach):
-    """Contacts of ball `i` with the ground within `reach`. Writes contacts."""
+    """Add the contacts of ball `i` with the ground within `reach`. Writes contacts."""
     begin = work.count[CONTACTS]
     place = load(ball['position'])
     low, high = surfaces.around(place, land.ball.radius + reach)
@@ -58,7 +59,7 @@ def add_ground_contacts(land, ball, i, work, reach):
 
 @kernel
 def init_contact(row, gap, friction):
-    """Fill in a contact that does not press yet."""
+    """Initialise a contact without impulse. Writes the contact."""
     row['separation'] = gap
     row['friction'] = friction
     row['rolling_resistance'] = 0.0
@@ -68,9 +69,10 @@ def init_contact(row, gap, friction):
 
 @kernel
 def neighbours_within(balls, work, i, reach, radius, now):
-    """Balls within `reach` of ball `i`, by number; whether others are on their way.
+    """Number of balls within `reach` of ball `i`; whether others are on their way there.
 
-    Writes near, in rising order: what is solved first must not depend on the tree. Returns how many.
+    Writes neighbours, in rising order: Gauss-Seidel depends on the order of contacts, which must not depend
+    on the shape of the tree.
     """
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + reach)
@@ -85,7 +87,7 @@ def neighbours_within(balls, work, i, reach, radius, now):
         if work.involved_index[j] < 0 and moves(balls[j]['phase']):
             watch = True
         if found < MOST_NEIGHBOURS and length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= reach:
-            k = found
+            k = found  # insertion sort
             while k > 0 and work.neighbours[k - 1] > j:
                 work.neighbours[k] = work.neighbours[k - 1]
                 k -= 1
@@ -96,7 +98,10 @@ def neighbours_within(balls, work, i, reach, radius, now):
 
 @kernel
 def add_resting_contact(land, balls, work, i, j, now):
-    """Add the contact of ball `i` with ball `j`, which is involved or asleep."""
+    """Add the contact of ball `i` with ball `j`, which is involved or asleep. Writes contacts.
+
+    A sleeper is of infinite mass: in the contact it has no `b`, and its number stands in `part` as -2 - j.
+    """
     apart = sub(load(balls[i]['position']), position_at(balls[j], now))
     row = add_contact(work, i, j if work.involved_index[j] >= 0 else -1, -2 - j, unit(apart, UP))
     if row >= 0:
@@ -105,14 +110,17 @@ def add_resting_contact(land, balls, work, i, j, now):
 
 @kernel
 def gap_rate(balls, i, j, now):
-    """Rate at which the gap between balls `i` and `j` grows."""
+    """Normal relative velocity [m/s] of balls `i` and `j`: positive where they separate."""
     normal = unit(sub(load(balls[i]['position']), position_at(balls[j], now)), UP)
     return dot(sub(load(balls[i]['velocity']), velocity_at(balls[j], now)), normal)
 
 
 @shared
 def correct_positions(balls, work):
-    """Push apart what overlaps, a little in every contact until nothing does. Writes positions and gaps."""
+    """Correct penetration by moving balls apart, without changing velocities. Writes positions.
+
+    Split impulses: stabilisation that adds no energy. Also writes position_change.
+    """
     for k in range(work.count[INVOLVED]):
         store(work.position_change[work.involved[k]], ZERO)
     for sweep in range(MOST_CORRECTIONS):
@@ -125,7 +133,7 @@ def correct_positions(balls, work):
 
 @kernel
 def sweep_positions(work, backward):
-    """One sweep over all overlaps. Writes position_change; returns the greatest overlap [m]."""
+    """Sweep once over all penetrations; the greatest one [m] before. Writes position_change."""
     most = 0.0
     count = work.count[CONTACTS]
     for k in range(count):
@@ -147,13 +155,13 @@ def sweep_positions(work, backward):
 
 @kernel
 def contact_partner(row):
-    """Number of what a contact is with: a ball below 0, else a part of the ground."""
+    """Number of what a ball has contact with: -2 - j for ball j, else a part of the ground."""
     return -2 - row['b'] if row['b'] >= 0 else row['part']
 
 
 @shared
 def warm_start(land, balls, work):
-    """Begin with the impulses of the step before. Writes contacts and motion."""
+    """Start from the impulses of the step before. Writes the contacts' impulses and solved_motion."""
     for n in range(work.count[CONTACTS]):
         row = work.contacts[n]
         ball = balls[row['a']]
@@ -161,6 +169,7 @@ def warm_start(land, balls, work):
             if ball['stored_partners'][k] == contact_partner(row):
                 row['normal_impulse'] = ball['stored_impulses'][k, 0]
                 rub = load(ball['stored_impulses'][k, 1:4])
+                # The normal has turned since: what is left of the old impulse along the new tangent plane.
                 store(row['tangent_impulse'], tangential(rub, load(row['normal'])))
                 apply_normal_impulse(work, row, scale(row['normal_impulse'], load(row['normal'])))
                 apply_tangent_impulse(work, row, load(row['tangent_impulse']), land.ball)
@@ -169,7 +178,7 @@ def warm_start(land, balls, work):
 
 @shared
 def store_impulses(balls, work):
-    """Remember the impulses for the next step. Writes stored_count, stored_partners, stored_impulses."""
+    """Store the impulses for the next warm start. Writes stored_count, stored_partners, stored_impulses."""
     for k in range(work.count[INVOLVED]):
         balls[work.involved[k]]['stored_count'] = 0
     for n in range(work.count[CONTACTS]):
@@ -185,7 +194,7 @@ def store_impulses(balls, work):
 
 @kernel
 def apply_normal_impulse(work, row, change):
-    """Change the velocities of both sides of a contact. Writes solved_motion."""
+    """Apply the impulse over mass `change` to both bodies of a contact. Writes solved_motion."""
     a = work.solved_motion[row['a'], 0:3]
     store(a, add(load(a), change))
     if row['b'] >= 0:
@@ -195,7 +204,7 @@ def apply_normal_impulse(work, row, change):
 
 @kernel
 def apply_tangent_impulse(work, row, rub, record):
-    """Let the friction impulse `change` act on both sides. Writes solved_motion."""
+    """Apply the tangential impulse over mass `rub` to both bodies of a contact. Writes solved_motion."""
     apply_normal_impulse(work, row, rub)
     twist = scale(-1.0 / (record.inertia * record.radius), cross(load(row['normal']), rub))
     a = work.solved_motion[row['a'], 3:6]
@@ -207,7 +216,7 @@ def apply_tangent_impulse(work, row, rub, record):
 
 @kernel
 def relative_motion(work, row):
-    """Velocity of one side of a contact against the other, and the sum of their spins."""
+    """Relative velocity of the two bodies of a contact, and the sum of their spins."""
     velocity = load(work.solved_motion[row['a'], 0:3])
     spin = load(work.solved_motion[row['a'], 3:6])
     if row['b'] >= 0:
@@ -218,16 +227,21 @@ def relative_motion(work, row):
 
 @shared
 def sweep_impulses(land, work, backward):
-    """One sweep over all contacts. Writes motion and impulses; returns the greatest change [m/s]."""
+    """One Gauss-Seidel sweep over all contacts; the greatest change of a normal impulse [m/s].
+
+    Writes solved_motion, normal_impulse, tangent_impulse.
+    """
     most = 0.0
     count = work.count[CONTACTS]
     grip = land.ball.inertia / (1.0 + land.ball.inertia)
     for k in range(count):
+        # Sweeps alternate in direction, so that no end of a pile is always solved last.
         row = work.contacts[count - 1 - k if backward else k]
         normal = load(row['normal'])
-        share = 0.5 if row['b'] >= 0 else 1.0
+        share = 0.5 if row['b'] >= 0 else 1.0  # reduced mass over mass
         velocity, spin = relative_motion(work, row)
         rate = dot(velocity, normal)
+        # The accumulated impulse is clamped, not its change; the gap may close within the step, no further.
         needed = max(row['normal_impulse'] - share * (rate + max(row['separation'], 0.0) / TIME_STEP), 0.0)
         change = needed - row['normal_impulse']
         if change != 0.0:
@@ -239,6 +253,7 @@ def sweep_impulses(land, work, backward):
             sliding = sub(add_scaled(velocity, -rate, normal), scale(land.ball.radius, cross(spin, normal)))
             rub = add_scaled(before, -share * grip, sliding)
             size = length(rub)
+            # Projection onto Coulomb's cone: a disc, not a pyramid, so that friction has no preferred axes.
             if size > row['friction'] * needed:
                 rub = scale(row['friction'] * needed / size, rub)
             apply_tangent_impulse(work, row, sub(rub, before), land.ball)
@@ -248,7 +263,7 @@ def sweep_impulses(land, work, backward):
 
 @shared
 def solve_contacts(land, balls, work):
-    """Solve all contacts. Writes impulses and solved_motion."""
+    """Solve all contacts by Gauss-Seidel sweeps. Writes impulses, also stored ones, and solved_motion."""
     warm_start(land, balls, work)
     for sweep in range(MOST_SWEEPS):
         if sweep_impulses(land, work, sweep % 2 == 1) <= CONVERGED:
@@ -258,7 +273,10 @@ def solve_contacts(land, balls, work):
 
 @kernel
 def write_back(ball, work, i):
-    """Give ball `i` its solved motion, and nothing to stand on yet. Writes motion, held_by and contact."""
+    """Write ball `i`'s solved motion back, and clear its support. Writes motion and contact fields.
+
+    Those are held_by, rolling_loss, normal and support; `count_support` fills them in.
+    """
     store(ball['velocity'], load(work.solved_motion[i, 0:3]))
     store(ball['spin'], load(work.solved_motion[i, 3:6]))
     ball['rolling_loss'] = 0.0
@@ -269,19 +287,22 @@ def write_back(ball, work, i):
 
 @kernel
 def is_pressed_by_gravity(land, ball, normal):
-    """Whether gravity presses the ball against what has `normal`, rather than lets it lean on it."""
+    """Whether gravity presses the ball onto a surface of `normal`: a support, not a wall or a ceiling."""
     weight = gravity_at(land.effects, load(ball['position']))
     return -dot(weight, normal) > WALL * length(weight)
 
 
 @kernel
 def count_support(land, balls, row):
-    """Let a contact that presses hold its balls. Writes held_by, rolling_loss, and what they stand on."""
+    """Count a contact that presses or nearly touches as support of its balls.
+
+    Writes held_by, rolling_loss; support, material and normal of the ball, if it is the most level surface.
+    """
     if row['normal_impulse'] <= 0.0 and row['separation'] > RESTING_GAP:
         return
     ball = balls[row['a']]
     normal = load(row['normal'])
-    if row['part'] < 0:
+    if row['part'] < 0:  # a ball counts twice: only a single contact with the ground sums to 1
         ball['held_by'] += 2
         if row['b'] >= 0:
             balls[row['b']]['held_by'] += 2
@@ -294,7 +315,7 @@ def count_support(land, balls, row):
 
 @kernel
 def limit_speed(ball, speed):
-    """Leave the ball a `speed` [m/s], and as much of its spin. Writes motion."""
+    """Scale the ball's velocity to `speed` [m/s], and its spin by the same factor. Writes motion."""
     before = length(load(ball['velocity']))
     if before > 0.0:
         store(ball['velocity'], scale(speed / before, load(ball['velocity'])))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Landing and bouncing: what an impact with the ground does, and what comes after it."""
+"""Impact with the ground: the impulse, and whether the ball flies, slides or rolls afterwards."""
 from ..collision.workspace import INVOLVED
 from ..contact.contact_state import heading, contact_material_number, choose_contact_mode, set_support
 from ..effects import effective_normal, gravity_at
@@ -18,34 +18,36 @@ from .contact_solver import is_pressed_by_gravity
 from .time_stepping import return_to_events
 from .wedged_ball import RAPID, step_wedged, is_wedged
 
-SEAM = 1e-6  # 1 - cosine of the angle below which a surface goes on from another
-WALL_REBOUND = 1e-4  # m/s: a wall gives back up to this, so that leaning on it is not endless
-# Of its speed: the same of a wall that closes around it, or one turn is thousands of bounces.
+SEAM = 1e-6  # 1 - cosine of the angle below which one surface continues another: no impact between them
+WALL_REBOUND = 1e-4  # m/s: least rebound from a wall, or a ball pushed against it would impact without end
+# Of the ball's speed: the same for a concave wall, around which one turn would be thousands of impacts.
 HOLLOW_REBOUND = 0.01
-SLOW_FOR_AIR = 8.0  # m/s: slower than this the air hardly matters
-STEADY_RATIO = 0.1  # of 1 - e: what a ratio of rebound to approach may gain by the approach
-LAST_SHARE = 0.1  # of the speed below which bounces are summed
+SLOW_FOR_AIR = 8.0  # m/s: speed from which the air's share of the micro-bounces counts
+STEADY_RATIO = 0.1  # of 1 - e0: by so much restitution may grow with the approach and be summed all the same
+LAST_SHARE = 0.1  # of the threshold of micro-bounces: below this they are summed without what turf adds
 LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
 @shared
 def resolve_ground_impact(land, balls, i, now, work, log):
-    """Let ball `i` collide with its target. Writes motion, phase and contact; logs the impact.
+    """Resolve the impact of ball `i` with its target. Writes motion, phase and contact; logs the impact.
 
-    Other balls that touch it are hit too and become involved.
+    Other balls that touch it take part in the impact and become involved.
     """
     ball = balls[i]
     place = load(ball['position'])
     distance, normal = surfaces.nearest(land.ground, ball['target'], place)
-    if distance < land.ball.radius:
+    if distance < land.ball.radius:  # penetration within the tolerance of the time of impact
         place = add_scaled(place, land.ball.radius - distance, normal)
         store(ball['position'], place)
     supported = ball['phase'] != FLIGHT
+    # A ball that rolls onto a coplanar surface changes its support and is not hit.
     if supported and dot(normal, load(ball['normal'])) > 1.0 - SEAM:
         set_support(land, ball, surfaces.support_of(land.ground, ball['target']), normal)
         choose_contact_mode(land, ball, now)
         return
     alone = not supported and surfaces.is_alone(land.ground, ball['target'], place, land.ball.radius)
+    # Of coplanar parts the latest in the course gives the material, whichever the search has found first.
     if not alone:
         part, same = surfaces.touched(land.ground, place, land.ball.radius, ZERO)
         if part >= 0 and dot(same, normal) > 1.0 - 1e-9:
@@ -59,6 +61,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
     material = land.materials[number]
     contact_set.add_ground_contact(land, ball, i, ball['target'], normal, material, work)
     contact_set.collect_contacts(land, balls, work, now, 1 if alone else 0)
+    # A single approaching contact has a closed form; several at one instant are solved together.
     if work.count[INVOLVED] > 1 or contact_set.count_approaching(balls, work) > 1:
         resolve_contact_set(land, balls, now, work, 1, log)
         resume_motion(land, balls, now, work, 1)
@@ -67,7 +70,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
     rebound = max(dot(load(ball['velocity']), normal), 0.0)
     if approach > LEAST_LOGGED_APPROACH:
         log_ground_impact(land, ball, i, now, normal, number, before, log)
-    # A single longer segment among many short ones is no way out: on two lips they come in waves.
+    # One longer segment among many short ones does not reset the count: between two lips they come in waves.
     if now - ball['begin'] < RAPID:
         ball['rapid_impacts'] += 1
     else:
@@ -81,7 +84,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
 
 @kernel
 def apply_bounce(land, ball, normal, material):
-    """Apply the impulse of an impact with what has `normal`. Writes velocity and spin."""
+    """Apply the impulse of an impact with a surface of `normal`. Writes velocity and spin."""
     before = load(ball['velocity'])
     felt = effective_normal(land.effects, normal, before, material['softness'])
     e = restitution(material, -dot(before, felt))
@@ -89,13 +92,13 @@ def apply_bounce(land, ball, normal, material):
                              land.ball.mass, land.ball.inertia)
     apply_impulse(ball, impulse(bond, before, load(ball['spin']), felt, land.ball.radius), felt, land.ball)
     rebound = dot(load(ball['velocity']), normal)
-    if rebound < 0.0:  # a tilted normal may send it into the ground: the true surface holds it
+    if rebound < 0.0:  # soft turf tilts the normal, which may leave velocity into the true surface
         store(ball['velocity'], add_scaled(load(ball['velocity']), -rebound, normal))
 
 
 @kernel
 def log_ground_impact(land, ball, number, now, normal, material, before, log):
-    """Log an impact."""
+    """Log an impact of a ball with the ground."""
     event = next_event(log)
     event['time'] = now
     event['ball'] = number
@@ -113,7 +116,10 @@ def log_ground_impact(land, ball, number, now, normal, material, before, log):
 
 @kernel
 def choose_after_impact(land, ball, now, impact, normal, material):
-    """Decide whether the ball flies on, or stays on what it hit or on what it was on."""
+    """Choose between flight and contact after an impact. Writes phase, contact, velocity and spin.
+
+    The ball flies, or stays on what it hit if gravity presses it there, or on what it was on before.
+    """
     supported, approach, rebound = impact
     if is_pressed_by_gravity(land, ball, normal):
         press = -dot(gravity_at(land.effects, load(ball['position'])), normal)
@@ -121,8 +127,8 @@ def choose_after_impact(land, ball, now, impact, normal, material):
         if rebound < micro_bounce_threshold(land, ball):
             bounciness = effective_restitution(land, ball, normal, material, rebound)
         if bounciness < 1.0:
-            # Bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all and press with
-            # v (1 + e) / (1 - e) on the whole: (1 + e) / 2 of the weight, on the average.
+            # Micro-bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all; their normal impulses
+            # over mass sum to v (1 + e) / (1 - e): (1 + e) / 2 of the weight on average.
             ball['micro_bounce_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
             ball['micro_bounce_load'] = 0.5 * (1.0 + bounciness)
             set_support(land, ball, surfaces.support_of(land.ground, ball['target']), normal)
@@ -130,6 +136,7 @@ def choose_after_impact(land, ball, now, impact, normal, material):
             choose_contact_mode(land, ball, now)
             return
     else:
+        # A wall has no micro-bounces to sum: a least rebound bounds the number of impacts instead.
         least = min(approach, wall_rebound(land, ball))
         if rebound < least:
             store(ball['velocity'], add_scaled(load(ball['velocity']), least - rebound, normal))
@@ -144,12 +151,13 @@ def choose_after_impact(land, ball, now, impact, normal, material):
 
 @kernel
 def effective_restitution(land, ball, normal, material, rebound):
-    """The constant ratio of rebound to approach with which bounces from now on would last as long in all.
+    """Constant restitution with which the remaining bounces would last as long in all; 1 to follow them.
 
-    From e0 it changes with the approach, as restitution does and as soft turf throws a fast ball up. To first
-    order, sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): as if the ratio were all the
-    while that of an approach of v / (1 + e0). Where that is much more than e0, it is 1: bounces go on. But a
-    law of turf that does not fade with the approach has no such sum at all: at last it counts no more.
+    Restitution changes from e0 with the approach, by its own law and as soft turf throws a fast ball up. To
+    first order the sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): that of a constant
+    restitution, the one at an approach of v / (1 + e0). Where that is much more than e0, first order does not
+    do, and bounces are followed one by one. A turf law that does not fade with the approach has no such sum
+    at all: of the very last bounces it is left out.
     """
     if rebound <= LEAST_SPEED:
         return 0.0
@@ -168,7 +176,7 @@ def effective_restitution(land, ball, normal, material, rebound):
 
 @kernel
 def wall_rebound(land, ball):
-    """Speed [m/s] up to which a wall gives all of the approach back."""
+    """Approach speed [m/s] up to which a wall has restitution 1."""
     if surfaces.hollow(land.ground, ball['target']) == 0.0:
         return WALL_REBOUND
     return max(WALL_REBOUND, HOLLOW_REBOUND * length(load(ball['velocity'])))
@@ -176,20 +184,20 @@ def wall_rebound(land, ball):
 
 @kernel
 def micro_bounce_threshold(land, ball):
-    """Rebound below which the rest of the bounces is summed: less for a fast ball.
+    """Rebound [m/s] below which the remaining bounces are summed as micro-bounces: less for a fast ball.
 
-    The air takes its share of the sum at once, a little early: that is an error of place that goes with the
-    square of the speed, and of the time that the bounces last.
+    The air acts on their sum at once, a little early: an error of position in proportion to the square of the
+    speed and to the square of the time that they last.
     """
     return max(land.limits.settle / (1.0 + length(load(ball['velocity'])) / SLOW_FOR_AIR), LEAST_MICRO_BOUNCE)
 
 
 @shared
 def cross_border(land, ball, now):
-    """Find out what the ball is on past a border in plan. Writes phase and contact."""
+    """Find the support of a ball that has reached a border in plan. Writes position, phase and contact."""
     ahead = heading(land, ball)
     part, normal = surfaces.touched(land.ground, load(ball['position']), land.ball.radius, ahead)
-    if part < 0:
+    if part < 0:  # the ground ends here
         ball['phase'] = FLIGHT
         ball['step'] = 0.0
         return

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Impacts at one instant that share a ball, whatever order balls and surfaces are stored in.
+"""Simultaneous impacts: contacts of one instant that share a ball, independent of their order in memory.
 
 Generalized reflections (Smith, Kaufman, Vouga, Tamstorf, Grinspun, "Reflections on Simultaneous
-Impact", ACM Trans. Graph. 31 (2012) 106): all approaching contacts are projected out together with
-non-negative impulses, each impulse counts 1 + e times, and that is repeated until none approaches. The
-projection is Nesterov's accelerated gradient method on the impulses: every contact is treated alike, so
-that neither the order in memory nor left and right count.
+Impact", ACM Trans. Graph. 31 (2012) 106): the approach of all active contacts is projected out together
+with non-negative impulses, each impulse is applied 1 + e times, and that is repeated until no contact
+approaches. The projection is a linear complementarity problem, solved by Nesterov's accelerated projected
+gradient method: every contact is treated alike, so that neither the order in memory nor left and right
+count, as they would in Gauss-Seidel sweeps.
 """
 from math import sqrt
 
@@ -21,7 +22,7 @@ MOST_GRADIENT_STEPS = 3000
 
 @shared
 def solve_reflections(land, balls, work):
-    """Let all contacts bounce at once. Writes velocities, spins, and the contacts' impulses."""
+    """Solve the impacts of all contacts at once. Writes velocities, spins, and the contacts' impulses."""
     contacts = work.contacts
     count = work.count[CONTACTS]
     fastest = 0.0
@@ -33,7 +34,8 @@ def solve_reflections(land, balls, work):
             row = contacts[n]
             row['rate'] = separation_rate(balls, row)
             row['approach_speed'] = max(row['approach_speed'], -row['rate'])
-            # At last nothing bounces any more, and all that touches counts: then none approaches.
+            # The last round has no restitution and takes all contacts as active: afterwards none approaches.
+            # Rounding leaves rates of about 1e-16 of the fastest ball's speed, which are no approach.
             row['active'] = row['rate'] < -1e-12 * fastest or round_ == MOST_REFLECTIONS - 1
             approaching |= row['rate'] < -1e-12 * fastest
         if not approaching:
@@ -44,11 +46,14 @@ def solve_reflections(land, balls, work):
 
 @kernel
 def project_impulses(work):
-    """Least impulses (over mass) that stop all approach at the active contacts. Writes normal_impulse."""
+    """Project out the approach of the active contacts. Writes normal_impulse [m/s], an impulse over mass.
+
+    Also writes previous_impulse, extrapolated_impulse, contact_count and the workspace's velocity_change.
+    """
     contacts = work.contacts
     count = work.count[CONTACTS]
     active = count_contacts(work)
-    if active == 1:
+    if active == 1:  # closed form: two balls share the change of the rate
         for n in range(count):
             row = contacts[n]
             row['normal_impulse'] = -row['rate'] / (2.0 if row['b'] >= 0 else 1.0) if row['active'] else 0.0
@@ -60,7 +65,8 @@ def project_impulses(work):
         row['previous_impulse'] = 0.0
         row['extrapolated_impulse'] = 0.0
         if row['active']:
-            # A bound on the row sums of the matrix that turns pushes into rates.
+            # A bound on the row sums of the Delassus matrix, from impulses to rates, is one on its largest
+            # eigenvalue: its inverse is a step length that always converges.
             most = max(most, (2.0 if row['b'] >= 0 else 1.0) * row['contact_count'])
     momentum = 1.0
     for _ in range(MOST_GRADIENT_STEPS):
@@ -79,12 +85,12 @@ def project_impulses(work):
             row['normal_impulse'] = push
             changed = max(changed, abs(push - row['previous_impulse']))
             largest = max(largest, push)
-        if changed <= 1e-15 * largest:
+        if changed <= 1e-15 * largest:  # as exact as doubles: symmetric racks must stay symmetric
             break
         following = 0.5 * (1.0 + sqrt(1.0 + 4.0 * momentum * momentum))
         weight = (momentum - 1.0) / following
         momentum = following
-        if turned > 0.0:  # it overshoots: start anew from here
+        if turned > 0.0:  # momentum against the gradient: adaptive restart (O'Donoghue and Candes)
             weight = 0.0
             momentum = 1.0
         for n in range(count):
@@ -95,7 +101,10 @@ def project_impulses(work):
 
 @kernel
 def count_contacts(work):
-    """Count active contacts, and those of each ball. Writes contact_count; returns the number of all."""
+    """Number of active contacts. Writes contact_counts of each ball, and contact_count of each contact.
+
+    A contact's count is that of the one of its balls that has more contacts.
+    """
     for k in range(work.count[INVOLVED]):
         work.contact_counts[work.involved[k]] = 0.0
     active = 0
@@ -116,7 +125,7 @@ def count_contacts(work):
 
 @kernel
 def apply_extrapolated(work):
-    """Change of velocities by the contacts' `extrapolated_impulse`. Writes velocity_change."""
+    """Sum up what the contacts' `extrapolated_impulse` changes of the velocities. Writes velocity_change."""
     for k in range(work.count[INVOLVED]):
         store(work.velocity_change[work.involved[k]], ZERO)
     for n in range(work.count[CONTACTS]):
@@ -131,7 +140,7 @@ def apply_extrapolated(work):
 
 @kernel
 def rate_change(work, row):
-    """Change of the rate of a contact by velocity_change."""
+    """Change of a contact's rate [m/s] by velocity_change."""
     normal = load(row['normal'])
     change = dot(load(work.velocity_change[row['a']]), normal)
     if row['b'] >= 0:
@@ -141,7 +150,10 @@ def rate_change(work, row):
 
 @kernel
 def apply_impulses(land, balls, work, last):
-    """Apply the pushes with restitution, unless it is the `last` round, then friction. Writes motion."""
+    """Apply normal impulses, with restitution unless it is the `last` round, then friction. Writes motion.
+
+    Writes the contacts' normal_impulse [N s], tangent_impulse, impulse.
+    """
     contacts = work.contacts
     for n in range(work.count[CONTACTS]):
         row = contacts[n]
@@ -149,7 +161,8 @@ def apply_impulses(land, balls, work, last):
             e = 0.0 if last else row['restitution']
             row['normal_impulse'] *= (1.0 + e) * land.ball.mass
             apply_to_both(land, balls, row, scale(row['normal_impulse'], load(row['normal'])))
-    # All friction is worked out before any acts, and a ball's contacts share it: none comes first.
+    # All tangential impulses are found before any is applied (Jacobi, not Gauss-Seidel), and the contacts of
+    # a ball share its slip: so no contact comes first.
     for n in range(work.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
@@ -165,7 +178,7 @@ def apply_impulses(land, balls, work, last):
 
 @kernel
 def apply_to_both(land, balls, row, push):
-    """Apply the impulse `push` [N s] of a contact to both sides. Writes motion and the contact's impulse."""
+    """Apply the impulse `push` [N s] to both bodies of a contact. Writes motion and the contact's impulse."""
     normal = load(row['normal'])
     store(row['impulse'], add(load(row['impulse']), push))
     apply_impulse(balls[row['a']], push, normal, land.ball)
@@ -175,7 +188,7 @@ def apply_to_both(land, balls, row, push):
 
 @kernel
 def contact_slip(land, balls, row):
-    """Velocity of `a`'s surface along that of what it touches."""
+    """Slip [m/s] of a contact: tangential velocity of `a`'s surface relative to what it touches."""
     a = balls[row['a']]
     velocity = load(a['velocity'])
     spin = load(a['spin'])

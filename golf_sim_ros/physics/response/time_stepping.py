@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Balls that lean on balls for good: piles, racks, two balls in a bowl.
+"""Moreau time stepping of balls in lasting contact with balls: piles, racks, two balls in a bowl.
 
-There impacts follow each other ever faster. Such balls are time-stepped: they move in small steps, all at
-the same instants, at each of which their contacts are solved together (contact_solver.py). A ball that
-nothing holds any more flies on, one that only the ground holds rolls on. What has been calm for a while falls
-asleep, and awakes when it is touched or when what it leans on sets off.
+Event by event their impacts would follow each other ever faster (Zeno). Such balls are time-stepped: they
+move in small steps, all at the same instants, at each of which their contacts are solved together
+(contact_solver.py). A ball without contact returns to flight, one with contact to the ground alone to sliding
+or rolling. A ball that has been still for a while falls asleep; it wakes when it is touched or when what it
+rests on moves.
 
-The velocity of a time-stepped ball is that half-way through its step, so that a step in free fall is exact;
-one that has just joined has its own.
+The velocity of a time-stepped ball is that half-way through its step (leapfrog), so that a step in free fall
+is exact; one that has only just joined has its velocity at the start.
 """
 from math import floor
 
@@ -30,29 +31,29 @@ from .contact_solver import (TIME_STEP, add_resting_contact, gap_rate, contact_r
                              solve_contacts, limit_speed)
 from .wedged_ball import MANY_RAPID_IMPACTS, is_wedged
 
-WAKING_APPROACH = 1e-3  # m/s of approach wake a sleeper
-DAMPED_SPEED = 0.02  # m/s: what moves slower is damped, for the sweeps never quite end
-DAMPING = 0.9
-STILL_SPEED = 4e-3  # m/s
-STEPS_TO_SLEEP = 50
-FREE_SPEED = 2.0  # m/s: faster than this a ball flies on its own
+WAKING_APPROACH = 1e-3  # m/s: normal relative velocity, of either sign, that wakes a sleeper
+DAMPED_SPEED = 0.02  # m/s: slower balls of a pile are damped, for the sweeps never converge completely
+DAMPING = 0.9  # factor of the velocity a step
+STILL_SPEED = 4e-3  # m/s, of velocity and of spin times radius: slower counts as still
+STEPS_TO_SLEEP = 50  # still steps after which a ball falls asleep: a tenth of a second
+FREE_SPEED = 2.0  # m/s: a faster ball returns to events
 
 
 @kernel
 def next_step_time(now):
-    """The next instant at which piles are solved."""
+    """Next instant of time stepping after `now`."""
     return (floor(now / TIME_STEP) + 1.0) * TIME_STEP
 
 
 @kernel
 def is_step_time(now):
-    """Whether piles are solved at `now`."""
+    """Whether `now` is an instant of time stepping; exact, for the step is a power of two."""
     return floor(now / TIME_STEP) * TIME_STEP == now
 
 
 @kernel
 def begin_time_stepping(ball):
-    """Let a ball move in time steps, together with others."""
+    """Switch a ball from events to time stepping. Writes time_stepping, phase, and what goes with them."""
     mark_moved_by_ball(ball)
     ball['sleeps_on_ball'] = 0
     ball['time_stepping'] = JOINED
@@ -65,14 +66,14 @@ def begin_time_stepping(ball):
 
 @kernel
 def return_to_events(ball):
-    """Let a ball move from event to event again."""
+    """Switch a ball from time stepping back to events. Writes time_stepping, rapid_impacts."""
     ball['time_stepping'] = 0
     ball['rapid_impacts'] = 0
 
 
 @kernel
 def straight_segment(ball, span):
-    """Lay a straight segment of `span` seconds. Writes curve and ending."""
+    """Plan a straight segment of `span` seconds. Writes the curve, span and ending."""
     v = load(ball['velocity'])
     ball['span'] = span
     ball['ending'] = STEP_END
@@ -83,7 +84,7 @@ def straight_segment(ball, span):
 
 @shared
 def touches_ball(balls, work, i, radius, now):
-    """Whether another ball is within PILE_NEAR of ball `i`."""
+    """Whether another ball is within RESTING_GAP of ball `i`."""
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + RESTING_GAP)
     at = next_node(work, 0, low, high)
@@ -131,11 +132,12 @@ def _rouse(work, balls, radius, now):
 
 @shared
 def solve_time_step(land, balls, now, work):
-    """Solve all contacts of the time-stepped balls that are due. Writes motion and phases."""
+    """Solve one time step of all time-stepped balls that are due. Writes motion and phases."""
     for i in range(len(balls)):
         if balls[i]['time_stepping'] and work.segment_ends[i] == now and work.involved_index[i] < 0:
             add_to_set(work, i)
             synchronize(balls[i], now)
+    # Gravity first: contacts have to hold a ball against it.
     for k in range(work.count[INVOLVED]):
         apply_gravity(land, balls, work, work.involved[k])
     collect_resting_contacts(land, balls, work, now)
@@ -151,7 +153,10 @@ def solve_time_step(land, balls, now, work):
 
 @kernel
 def apply_gravity(land, balls, work, i):
-    """Let gravity act on a ball up to half-way through its next step. Writes solved_motion, time_stepping."""
+    """Apply gravity to a ball up to half-way through its next step. Writes solved_motion, time_stepping.
+
+    Leapfrog: a ball that has only just joined gets half a step of it.
+    """
     ball = balls[i]
     time = TIME_STEP if ball['time_stepping'] == STEPPED else 0.5 * TIME_STEP
     ball['time_stepping'] = STEPPED
@@ -162,7 +167,10 @@ def apply_gravity(land, balls, work, i):
 
 @shared
 def collect_resting_contacts(land, balls, work, now):
-    """Contacts of the involved balls with all in reach. Writes contacts, involved, contact_reach."""
+    """Collect the contacts of the involved balls within reach; sleepers that they push join.
+
+    Writes contacts, involved, contact_reach, watches_neighbours.
+    """
     reach = contact_reach(work)
     k = 0
     while k < work.count[INVOLVED]:
@@ -174,10 +182,10 @@ def collect_resting_contacts(land, balls, work, now):
         for n in range(found):
             j = work.neighbours[n]
             if 0 <= work.involved_index[j] < k:
-                continue  # has this contact already
+                continue  # ball j has added this contact already
             if work.involved_index[j] < 0:
                 if balls[j]['phase'] != REST:
-                    continue  # it comes by itself
+                    continue  # it moves from event to event: its impact is an event of its own
                 rate = gap_rate(balls, i, j, now)
                 if rate < -WAKING_APPROACH or balls[j]['sleeps_on_ball'] and rate > WAKING_APPROACH:
                     begin_time_stepping(balls[j])
@@ -189,9 +197,13 @@ def collect_resting_contacts(land, balls, work, now):
 
 @kernel
 def choose_after_step(land, ball, now, work):
-    """Let a ball rest, roll away, fly away, or stay time-stepped. Writes motion and phase."""
+    """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
+
+    Writes motion, phase, time_stepping, sleeps_on_ball, still_steps.
+    """
     speed = length(load(ball['velocity']))
     left = max(speed - ball['rolling_loss'], 0.0)
+    # Not with a single contact with the ground: there a closed form stops the ball.
     if left < DAMPED_SPEED and ball['held_by'] > 1:
         left *= DAMPING
     limit_speed(ball, left)
@@ -209,6 +221,7 @@ def choose_after_step(land, ball, now, work):
         ball['phase'] = REST
     elif ball['held_by'] == 0 or speed > FREE_SPEED or ball['held_by'] == 1 and ball['support'] != NO_PART:
         return_to_events(ball)
+        # Back from half-way through the step (leapfrog) to the velocity at its start.
         weight = gravity_at(land.effects, load(ball['position']))
         store(ball['velocity'], add_scaled(load(ball['velocity']), -0.5 * TIME_STEP, weight))
         if ball['held_by'] == 1 and ball['support'] != NO_PART:

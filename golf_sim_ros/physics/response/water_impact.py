@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A ball that meets water: it skips or goes in, sinks, and its shot is over."""
+"""Impact with water: a ball ricochets or enters, sinks, and its shot is over."""
 from math import asin, pi, sqrt
 
 from ..jit import kernel, shared
@@ -10,32 +10,32 @@ from ..state.events import WATER_HIT, next_event
 from ..trajectory.shot_record import record_landing
 
 # Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998) 15-24: a
-# sphere comes off water that it meets at less than 18 degrees over the root of its specific gravity. For a
+# sphere ricochets off water that it hits at less than 18 degrees over the root of its specific gravity. For a
 # golf ball that is 16.9 degrees.
 CRITICAL_ANGLE = 18.0 * pi / 180
-# That is for balls so fast that their weight does not count. Estimates: the slowest that skips, and what
-# it keeps of its speed along the water, upwards, and of its spin.
+# That holds for balls so fast that their weight does not count. Estimates: the slowest that ricochets, and
+# what it keeps of its speed along the water, upwards, and of its spin.
 SKIPS_AT = 10.0  # m/s
 ALONG_KEPT = 0.7
 UPWARD_KEPT = 0.6
 SPIN_KEPT = 0.5
-DEEP = 2.0  # radii below the surface
-SINKING_SPEED = 0.5  # m/s: a golf ball sinks at 0.4
-DEEPEST = 5.0  # m: further down no ball is followed
+DEEP = 2.0  # radii below the surface: the ball is well under water
+SINKING_SPEED = 0.5  # m/s: a golf ball sinks at 0.4, so a slower one has lost what it came with
+DEEPEST = 5.0  # m below the surface: deeper down no ball is followed
 
 
 @kernel
 def specific_gravity(record):
-    """Density of the ball over that of water."""
+    """Specific gravity: density of the ball over that of water."""
     r = record.radius
     return record.mass / (4.0 / 3.0 * pi * r * r * r * WATER_DENSITY)
 
 
 @shared
 def resolve_water_impact(land, ball, number, now, log):
-    """Let ball `number` skip off the water that it meets, or go in. Writes motion; logs the impact.
+    """Resolve the impact of ball `number` with water: ricochet or entry. Writes motion, water; logs it.
 
-    In it shares its momentum with the water that it carries along.
+    A ball that enters shares its momentum with its added mass.
     """
     record_landing(ball, now)
     velocity = load(ball['velocity'])
@@ -49,6 +49,7 @@ def resolve_water_impact(land, ball, number, now, log):
     else:
         ball['water'] = ball['target']
         store(ball['velocity'], scale(heavy / (heavy + ADDED_MASS), velocity))
+        # A ball that rolls in keeps its support: its shot ends there as one that touches ground under water.
         if ball['phase'] == FLIGHT:
             ball['support'] = NO_PART
     store(ball['normal'], (0.0, 0.0, 1.0))
@@ -60,9 +61,10 @@ def resolve_water_impact(land, ball, number, now, log):
 
 @kernel
 def skips_off(land, ball, velocity, heavy):
-    """Whether a ball of specific gravity `heavy` that meets water at `velocity` comes off it again."""
+    """Whether a ball of specific gravity `heavy` that hits water at `velocity` ricochets."""
     speed = length(velocity)
     under = land.ground.waters.levels[ball['target'] - 1] - ball['position'][2]
+    # Only from above: one that comes in through the outline, as from a bank, is under the surface already.
     if ball['phase'] != FLIGHT or velocity[2] >= 0.0 or speed < SKIPS_AT or under > 1e-6:
         return False
     return asin(-velocity[2] / speed) < CRITICAL_ANGLE / sqrt(heavy)
@@ -70,7 +72,7 @@ def skips_off(land, ball, velocity, heavy):
 
 @kernel
 def log_water_impact(land, ball, number, now, before, log):
-    """Log that the ball met water."""
+    """Log an impact of a ball with water."""
     event = next_event(log)
     event['time'] = now
     event['ball'] = number
@@ -86,14 +88,14 @@ def log_water_impact(land, ball, number, now, before, log):
 
 @kernel
 def leave_water(land, ball):
-    """Let a ball that has risen above the surface be out of the water: a light one, or one sent up."""
+    """Take a ball that rises above the surface, a light one or one sent up, out of water. Writes water."""
     if ball['position'][2] > land.ground.waters.levels[ball['water'] - 1] and ball['velocity'][2] > 0.0:
         ball['water'] = 0
 
 
 @kernel
 def has_ended_in_water(land, ball):
-    """Whether a ball in water touches ground, or is so slow that it goes on sinking or floats."""
+    """Whether a ball in water has reached ground, or is so slow that it only sinks on or floats."""
     if ball['water'] == 0 or not moves(ball['phase']):
         return False
     if ball['phase'] != FLIGHT:
@@ -106,7 +108,7 @@ def has_ended_in_water(land, ball):
 
 @kernel
 def sink(ball):
-    """Let the ball's way end in the water. Writes phase and motion."""
+    """End the ball's path in the water. Writes phase and motion."""
     ball['phase'] = WATER
     store(ball['velocity'], ZERO)
     store(ball['spin'], ZERO)

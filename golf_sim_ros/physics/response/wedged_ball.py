@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A ball that several surfaces hold at once: in a groove, a corner, a slot, or blown against a wall.
+"""Wedged balls, held by several surfaces at once: in a groove, a corner, a slot, or blown against a wall.
 
-There impacts follow each other ever faster. After some it is wedged: it moves in small steps of
-time, and at each step's end whatever it touches takes away what drives it in, with friction
-(Moreau's time stepping, see contact_solver.py), and pushes it out.
+Event by event their impacts would follow each other ever faster (Zeno). After MANY_RAPID_IMPACTS the ball
+is wedged: it moves in small time steps, at whose ends all its contacts are solved together with friction
+(Moreau's time stepping, see contact_solver.py), and penetration is corrected.
 """
 from math import sqrt
 
@@ -19,31 +19,31 @@ from ..trajectory.segment import greatest_acceleration
 from .contact_solver import (write_back, add_ground_contacts, count_support, sweep_impulses, sweep_positions,
                              limit_speed)
 
-RAPID = 1e-6  # s between impacts: of a ball that is being wedged they are less
-MANY_RAPID_IMPACTS = 20
-WEDGED_STEP = 2e-4  # s at most
-STEP_PENETRATION = 2e-7  # m: by so much may acceleration drive a ball in, in a step
-WEDGED_SWEEPS = 50
+RAPID = 1e-6  # s between impacts: shorter for a ball that is being wedged
+MANY_RAPID_IMPACTS = 20  # after so many in a row a ball is wedged
+WEDGED_STEP = 2e-4  # s: longest time step
+STEP_PENETRATION = 2e-7  # m: penetration that acceleration may cause in a step
+WEDGED_SWEEPS = 50  # over impulses, and over penetrations
 REST_SPEED = 1e-4  # m/s after a step: far less than the 2e-3 that gravity gives in one
 
 
 @kernel
 def is_wedged(ball):
-    """Whether the ball moves in small steps, held by what it touches."""
+    """Whether several surfaces hold the ball, so that it moves in small time steps."""
     return ball['rapid_impacts'] > MANY_RAPID_IMPACTS
 
 
 @kernel
 def wedged_step_length(ball):
-    """Length [s] of the next small step of a ball on a segment of flight."""
+    """Length [s] of the next time step of a wedged ball on a segment of flight."""
     return min(WEDGED_STEP, sqrt(2.0 * STEP_PENETRATION / max(greatest_acceleration(ball), 1e-3)))
 
 
 @shared
 def step_wedged(land, balls, i, now, work):
-    """Let what ball `i` touches hold it. Writes position, motion, phase and contact.
+    """Solve the contacts of the wedged ball `i` at a time step's end. Writes motion, phase and contact.
 
-    A ball left with one surface to lie on, or none, is wedged no more.
+    A ball with one support left, or none, is no longer wedged.
     """
     ball = balls[i]
     store(work.solved_motion[i, 0:3], load(ball['velocity']))
@@ -64,7 +64,7 @@ def step_wedged(land, balls, i, now, work):
     left = max(length(load(ball['velocity'])) - ball['rolling_loss'], 0.0)
     limit_speed(ball, left)
     ball['phase'] = FLIGHT
-    # What is held does not hop: else the rounding of its rise would decide the next step's length.
+    # A held ball gets a fixed first step: the estimate of a hop's length would follow rounding.
     ball['step'] = WEDGED_STEP if ball['held_by'] > 0 else 0.0
     ball['last_stage_time'] = -1.0
     if ball['held_by'] == 0:

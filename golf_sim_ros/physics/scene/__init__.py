@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a caller gives: a course, and how exact; and the record that kernels get of it."""
+"""Input of a simulation: a course and an accuracy preset, and the record that kernels get of them."""

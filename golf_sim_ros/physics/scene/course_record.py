@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is played on, as plain records: no files, no formats."""
+"""Course and ball as plain records: no files, no formats."""
 from typing import NamedTuple, Optional, Union
 
 from ..effects.wind import LogProfile
@@ -10,7 +10,7 @@ from ..properties.material import Material
 
 
 class Ball(NamedTuple):
-    """The ball: R&A and USGA Equipment Rules part 4 give mass and radius.
+    """Golf ball: R&A and USGA Equipment Rules part 4 give mass and radius.
 
     ``inertia`` is the moment of inertia over m r^2; ``restitution`` and ``friction`` are those of
     ball against ball.
@@ -24,7 +24,7 @@ class Ball(NamedTuple):
 
 
 class Course(NamedTuple):
-    """A course, ready to be played.
+    """Course, ready to be played.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What kernels need to know of a world: the ball, the effects, the ground, and how exact to be."""
+"""Model of a world for kernels: the ball, the effects, the ground, and accuracy limits, as one record."""
 from typing import NamedTuple
 
 import numpy as np
@@ -14,16 +14,16 @@ from .course_record import Ball
 
 
 class Nothing(NamedTuple):
-    """An effect that does nothing: numba can't go through an empty tuple."""
+    """Effect that does nothing, since numba can't iterate over an empty tuple."""
 
     amount: float = 0.0
 
 
 class Limits(NamedTuple):
-    """How exact to be.
+    """Limits of accuracy.
 
-    ``settle`` [m/s]: rebounds slower than this are summed in closed form instead of followed one
-    by one; ``path`` [m]: how far the curve that ticks read may lie from a closed form.
+    ``settle`` [m/s]: bounces of slower rebound are summed in closed form, as micro-bounces, instead of
+    followed one by one; ``path`` [m]: how far a segment's curve may lie from a closed form or off the ground.
     """
 
     settle: float
@@ -31,7 +31,7 @@ class Limits(NamedTuple):
 
 
 class GroundScene(NamedTuple):
-    """What counts for a ball in contact. Wind and the like don't, so it never recompiles for them."""
+    """Model for a ball in contact: without wind and the like, which therefore recompile nothing."""
 
     ball: Ball
     effects: tuple
@@ -41,7 +41,7 @@ class GroundScene(NamedTuple):
 
 
 class Model(NamedTuple):
-    """A world for kernels: the land, and what acts in flight."""
+    """Model of a world: the ground scene, the effects in flight, the integrator."""
 
     land: GroundScene
     effects: tuple
@@ -61,14 +61,14 @@ def materials(course):
 
 
 def shapes(course):
-    """Ground and obstacles that a course's balls can touch: they pass through leaves."""
+    """Shapes of a course that balls can touch, ground and obstacles: they pass through leaves."""
     return course.ground + tuple(o for o in course.obstacles if o.material.drag == 0.0)
 
 
 def build_model(course, records, preset):
     """`Model` of `course` with effect `records` and an accuracy `preset`.
 
-    Types are cast here, once: a kernel would compile anew for an int in place of a float.
+    Types are cast here, once: a kernel would be recompiled for an int in place of a float.
     """
     on_land = speaking(records, protocol.gravity, protocol.contact_normal)
     land = GroundScene(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
@@ -77,13 +77,13 @@ def build_model(course, records, preset):
 
 
 def in_flight(records):
-    """Those of the effects' `records` that act on a flying ball."""
+    """Effects among `records` that act on a ball in flight or under water."""
     return speaking(records, protocol.gravity, protocol.air_velocity, protocol.acceleration,
                     protocol.spin_rate, protocol.under_water)
 
 
 def speaking(records, *some):
-    """Those of the `records` that have a word in one of `some` laws; `Nothing` where none has."""
+    """Effects among `records` that have a body for one of `some` laws; `Nothing` where none has."""
     return tuple(r for r in records if any(type(r) in law.cases for law in some)) or (Nothing(),)
 
 
@@ -100,6 +100,6 @@ def ground(course):
 
 
 def bare_ground(course):
-    """`Ground` of a course without obstacles, hole and flagstick: what its heights are asked of."""
+    """`Ground` of a course without obstacles, hole and flagstick, for queries of its height."""
     number = {material: i for i, material in enumerate(materials(course))}
     return ground_.build(course.ground, course.zones, course.bounds, None, number)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Presets: how exact a simulation is, from a sketch to a reference."""
+"""Accuracy presets of a simulation: sketch, standard, reference."""
 from math import inf
 from typing import NamedTuple
 
@@ -8,10 +8,10 @@ from .kernel_model import Limits
 
 
 class Preset(NamedTuple):
-    """An integrator with its tolerance, limits of the contact laws, and the error they promise.
+    """Integrator with its tolerance, limits of the contact laws, and the error that they promise.
 
-    ``touch`` and ``rest`` [m]: how far first touch and rest on level ground lie, at most, from
-    where exact arithmetic would put them, for shots of up to 90 m/s in still air.
+    ``touch`` and ``rest`` [m]: bounds on the error of the place of first contact, and of rest on level
+    ground, for shots of up to 90 m/s in still air.
     """
 
     method: NamedTuple
@@ -28,7 +28,7 @@ ACCURACY = {
 
 
 def preset(accuracy):
-    """`Preset` of that name; a `Preset` is given back.
+    """`Preset` of that name, or the `Preset` itself.
 
     Raises
     ------

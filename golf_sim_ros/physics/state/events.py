@@ -9,7 +9,7 @@ from ..jit import kernel
 # Kinds of event.
 BOUNCE, SHOT_ENDS, BALL_HIT, LOST, WATER_HIT, WENT_OUT = range(6)
 
-# Of a BUMP `material` is the number of the other ball.
+# Of a BALL_HIT `material` is the number of the other ball.
 EVENT = np.dtype([
     ('time', 'f8'), ('ball', 'i8'), ('kind', 'i8'), ('material', 'i8'), ('sort', 'i8'),
     # the vectors of a `Collision`, in its order
@@ -20,7 +20,7 @@ EVENT = np.dtype([
 
 
 class Log(NamedTuple):
-    """Events of one call: ``events[:count[0]]`` are filled; ``count[1]``: whether a shot has ended."""
+    """Event log of one call: ``events[:count[0]]`` are filled; ``count[1]``: whether a shot has ended."""
 
     events: np.ndarray
     count: np.ndarray
@@ -33,6 +33,6 @@ def new_log(capacity=64):
 
 @kernel
 def next_event(log):
-    """Event of the log to be written next; where it is full, the last one, which is lost. Writes count."""
+    """Next event of the log, to be written; the last one again where the log is full. Writes count."""
     log.count[0] = min(log.count[0] + 1, len(log.events))
     return log.events[log.count[0] - 1]

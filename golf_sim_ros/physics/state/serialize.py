@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Records of balls and events as numbers and lists, and back."""
+"""Serialisation of `BALL` records and events as numbers and lists, and back."""
 from functools import cache
 
 import numpy as np
@@ -8,25 +8,25 @@ from .ball import BALL, FLIGHT, ROLL, SLIDE
 
 TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
 
-OF_TICK = BALL.names[:3]  # what a tick writes of a ball that moves; all else lasts as long as its segment
-# What counts of all else if the ball does not move: the rest is written when it sets off.
+OF_TICK = BALL.names[:3]  # fields that a tick writes of a moving ball; all others last as long as its segment
+# The other fields that matter of a ball at rest: the rest is written when it sets off.
 STANDING = ('phase', 'support', 'material', 'normal', 'micro_bounce_end', 'micro_bounce_load',
             'micro_bounce_air', 'sleeps_on_ball', 'strokes')
-PRESSED = ('stored_count', 'stored_partners', 'stored_impulses')  # not of a ball that is not time-stepped
+PRESSED = ('stored_count', 'stored_partners', 'stored_impulses')  # only of a time-stepped ball
 
 
 def plain(ball):
-    """All that counts of a `BALL` record, as numbers and lists by name."""
+    """All fields of a `BALL` record that matter, as numbers and lists by name."""
     return {**plain_of_tick(ball), **plain_of_segment(ball)}
 
 
 def plain_of_tick(ball):
-    """The part of `plain` that every tick changes."""
+    """Part of `plain` that every tick changes."""
     return {name: ball[name].tolist() for name in OF_TICK}
 
 
 def plain_of_segment(ball):
-    """The part of `plain` that lasts as long as the ball's segment."""
+    """Part of `plain` that lasts as long as the ball's segment."""
     names = BALL.names[len(OF_TICK):] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
     if not ball['time_stepping']:
         names = [name for name in names if name not in PRESSED]
@@ -40,13 +40,13 @@ def plain_rows(records):
 
 @cache
 def with_triples(record):
-    """The dtype `record` with its vectors as records, which become tuples."""
+    """Dtype `record` with its vectors as records, which become tuples."""
     return np.dtype([(name, TRIPLE if kind.shape else kind) for name, (kind, _) in record.fields.items()],
                     align=record.isalignedstruct)
 
 
 def restored(values):
-    """`BALL` record of what `plain` gave; ValueError where a name or shape is none of it."""
+    """`BALL` record restored from `plain` values; ValueError where a name or shape is not of one."""
     ball = np.zeros((), BALL)
     ball['end'] = np.inf
     for name, value in values.items():

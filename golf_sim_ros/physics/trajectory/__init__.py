@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A path as a chain of segments, the equations of motion behind it, and what is kept of a shot."""
+"""Path of a ball as a chain of segments, its equations of motion, and the record of a shot."""

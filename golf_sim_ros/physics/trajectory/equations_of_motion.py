@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The equations of motion: of a ball that flies, and of one that follows ground which is not flat."""
+"""Equations of motion: of a ball in flight, and of one in contact with ground which is not flat."""
 from ..effects import flight_rates, gravity_at, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
@@ -7,12 +7,12 @@ from ..mechanics.impulse import slip
 from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, scale, sub, tangential, unit, load
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
-LEAST_SPEED = 1e-9  # m/s: slower than this is not moving
+LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
 
 
 @kernel
 def rates(model, ball, position, velocity, spin):
-    """Acceleration and rate of change of spin of a ball, in flight, under water or in contact."""
+    """Acceleration and angular acceleration of a ball, in flight, under water or in contact."""
     if ball['water'] > 0:
         return sinking(model.effects, position, velocity), ZERO
     if ball['phase'] == FLIGHT:
@@ -23,16 +23,16 @@ def rates(model, ball, position, velocity, spin):
 
 @kernel
 def material_under(land, ball):
-    """Row of the material that the ball touches."""
+    """Row of the material that the ball is in contact with."""
     return land.materials[ball['material']]
 
 
 @kernel
 def rolling_deceleration(material, press, needed):
-    """Deceleration of a rolling ball: what rolling resistance asks for and grip can give.
+    """Deceleration [m/s^2] of a rolling ball: rolling resistance, as far as grip allows.
 
-    Friction must brake, and turn the ball as it speeds up downhill, for which that much grip is `needed`:
-    on a plane k/(1 + k) of the pull. So a ball holds where (5/7) tan <= rolling resistance and
+    Friction has to brake the ball, and to turn it as it speeds up downhill, for which it is `needed`: on a
+    plane k/(1 + k) of the pull. So a ball stays at rest where (5/7) tan <= rolling resistance and
     tan <= static friction.
     """
     return min(material['rolling_resistance'] * press, max(material['static_friction'] * press - needed, 0.0))
@@ -40,21 +40,22 @@ def rolling_deceleration(material, press, needed):
 
 @kernel
 def rolling_needs(downhill, inertia):
-    """Friction over mass that turns a ball as it rolls down a plane."""
+    """Friction over mass [m/s^2] that turns a ball as it rolls down a plane without slip."""
     return inertia / (1.0 + inertia) * length(downhill)
 
 
 @kernel
 def unwinding(material, press, radius, inertia):
-    """Rate [rad/s^2] at which pivot friction takes spin about the normal."""
+    """Angular deceleration [rad/s^2] of spin about the normal by pivot friction."""
     return material['pivot_friction'] * press / (inertia * radius * radius)
 
 
 @kernel
 def pivoting(ball, material, press, drive, radius, inertia):
-    """What pivot friction takes from the spin about the normal: as the step begins, so it goes on.
+    """Angular deceleration [rad/s^2] by pivot friction, with the sign of the spin about the normal.
 
-    It holds a ball that does not turn about the normal against the `drive` of a normal that turns.
+    The sign is that at the step's start: within a step it must not jump. A ball without such spin is held
+    against the `drive` of a normal that turns, as by static friction.
     """
     most = unwinding(material, press, radius, inertia)
     about = dot(load(ball['spin']), load(ball['normal']))
@@ -65,21 +66,21 @@ def pivoting(ball, material, press, drive, radius, inertia):
 
 @kernel
 def micro_bounce_forces(ball, normal, press, downhill):
-    """How hard a ball presses, and what drives it along the ground, while its last bounces go on."""
+    """Mean press, and acceleration along the ground by weight and air, of a ball in micro-bounces."""
     along_ground = tangential(load(ball['micro_bounce_air']), normal)
     return ball['micro_bounce_load'] * press, add(downhill, along_ground)
 
 
 @shared
 def contact_rates(land, ball, place, velocity, spin):
-    """Acceleration, rate of spin, press, and grip needed to roll, of a ball on ground which is not flat.
+    """Acceleration, angular acceleration, press, and friction needed to roll, on ground which is not flat.
 
     A press below 0 means that the ground would have to pull.
 
-    With n' the rate of the normal: staying on the surface demands v' n = -v n', so the ground
-    presses with -(g n + v n') per mass. Grip also turns spin about the normal, w_n, into motion:
-    (1 + k) v'_t = g_t + k r w_n (n x n'). A sliding ball feels dynamic friction against its slip
-    instead, or, where it only begins to slip, along the grip that it lacks.
+    With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over mass is
+    -(g n + v n'). Grip also couples spin about the normal, w_n, to motion:
+    (1 + k) v'_t = g_t + k r w_n (n x n'). A sliding ball has dynamic friction against its slip instead, or,
+    where it only begins to slip, along the friction that rolling would need.
     """
     r = land.ball.radius
     k = land.ball.inertia
@@ -90,7 +91,7 @@ def contact_rates(land, ball, place, velocity, spin):
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
-    # single impacts do not brake a rolling ball, nor does their sum
+    # Single impacts do not brake a rolling ball, so neither do micro-bounces.
     tail = ball['micro_bounce_end'] > ball['begin']
     load = press
     if tail:
@@ -100,7 +101,7 @@ def contact_rates(land, ball, place, velocity, spin):
     resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
     if length(velocity) > LEAST_SPEED:
         free = add_scaled(free, -resistance / length(velocity), velocity)
-    else:  # it sets off as it is driven, if at all
+    else:  # from rest it sets off along what drives it, if that exceeds the resistance
         free = scale(max(1.0 - resistance / max(length(free), 1e-300), 0.0), free)
     friction = sub(free, downhill)
     if ball['phase'] == SLIDE:
@@ -110,7 +111,7 @@ def contact_rates(land, ball, place, velocity, spin):
         friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
     force = add_scaled(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
-    if ball['phase'] == ROLL:  # the spin goes with the motion: resistance brakes it, too
+    if ball['phase'] == ROLL:  # no slip: the spin follows the velocity, which resistance brakes, too
         torque = add_scaled(scale(1.0 / r, cross(normal, force)), about, turn)
     if material['pivot_friction'] > 0.0 and not tail:
         torque = add_scaled(torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A segment as a Bezier curve, so that it can be read at any instant.
+"""Segment of a path: a Bezier curve, dense output for every integrator and closed form.
 
-Position is of degree five: it meets position, velocity and acceleration at both ends (quintic
-Hermite), so it serves every integrator whose step ends with the rates there. Spin is of degree
-three. Coefficients are Bernstein's, relative to the start: the curve lies within their hull, which
+Position is of degree five: it interpolates position, velocity and acceleration at both ends (quintic
+Hermite), so it serves every integrator whose step ends with the rates there. Spin is of degree three (cubic
+Hermite). Coefficients are Bernstein's, relative to the start: the curve lies within their convex hull, which
 gives bounds for nothing, and short segments keep full precision.
 
 ::
@@ -20,11 +20,11 @@ from ..mechanics.vector import add, add_scaled, dot, store, sub, load
 
 @kernel
 def fit_segment(ball, way, velocity, rate, spin_rate):
-    """Write the segment's curve.
+    """Fit the segment's Hermite curves. Writes position_coefficients, spin_coefficients.
 
-    `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and
-    `spin_rate` are pairs (at start, at end); the start's spin is the ball's own and the end's
-    spin stands in the fourth coefficient already. Writes ball's path and spin_coefficients.
+    `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and `spin_rate` are
+    pairs (at the start, at the end); the spin at the start is the ball's own, that at the end stands in the
+    fourth coefficient already.
     """
     h = ball['span']
     w = ball['position_coefficients']
@@ -96,7 +96,7 @@ def spin(ball, time):
 
 @kernel
 def acceleration_coefficient(ball, i):
-    """Acceleration's Bernstein coefficient `i` (0 to 3) of the segment."""
+    """Bernstein coefficient `i` (0 to 3) of the segment's acceleration."""
     w = ball['position_coefficients']
     k = 20.0 / (ball['span'] * ball['span'])
     second = sub(sub(load(w[i + 2]), load(w[i + 1])), sub(load(w[i + 1]), load(w[i])))
@@ -105,7 +105,7 @@ def acceleration_coefficient(ball, i):
 
 @kernel
 def greatest_acceleration(ball):
-    """Bound on the acceleration's size over the segment."""
+    """Upper bound on the magnitude of the acceleration over the segment."""
     most = 0.0
     for i in range(4):
         a = acceleration_coefficient(ball, i)
@@ -115,7 +115,7 @@ def greatest_acceleration(ball):
 
 @kernel
 def greatest_speed(ball):
-    """Bound on the speed over the segment."""
+    """Upper bound on the speed over the segment."""
     w = ball['position_coefficients']
     most = 0.0
     for i in range(5):
@@ -126,7 +126,7 @@ def greatest_speed(ball):
 
 @kernel
 def least_acceleration(ball, direction):
-    """Bound from below on the acceleration along `direction` over the segment."""
+    """Lower bound on the acceleration along `direction` over the segment."""
     least = dot(acceleration_coefficient(ball, 0), direction)
     for i in range(1, 4):
         least = min(least, dot(acceleration_coefficient(ball, i), direction))
@@ -135,7 +135,7 @@ def least_acceleration(ball, direction):
 
 @kernel
 def extent_along(ball, axis):
-    """Least and greatest coordinate on `axis` that the segment can reach."""
+    """Bounds on the segment's coordinate along `axis`, least and greatest."""
     low = 0.0
     high = 0.0
     w = ball['position_coefficients']
@@ -156,7 +156,7 @@ def plane_gap_coefficients(ball, normal, first):
 
 @kernel
 def plane_gap(g, span, time):
-    """Height `time` after the start of a segment of `span` and its rate, by its coefficients `g`."""
+    """Height of Bernstein coefficients `g` at `time` after the start of a segment of `span`, and its rate."""
     t = time / span
     s = 1.0 - t
     ss = s * s
@@ -170,7 +170,7 @@ def plane_gap(g, span, time):
 
 @kernel
 def acceleration_bounds(g, span):
-    """How fast the rate of a height with the coefficients `g` falls, and rises, over a segment at most."""
+    """Bounds on how fast the rate of a height with coefficients `g` falls, and rises, over a segment."""
     a = g[2] - 2.0 * g[1] + g[0]
     b = g[3] - 2.0 * g[2] + g[1]
     c = g[4] - 2.0 * g[3] + g[2]
@@ -181,7 +181,7 @@ def acceleration_bounds(g, span):
 
 @kernel
 def stay_in_place(ball):
-    """Make the segment stand still with the ball's spin, for `span`."""
+    """Plan a segment at rest, with the ball's spin. Writes the curve and span."""
     ball['span'] = 1.0
     store(ball['origin'], load(ball['position']))
     ball['position_coefficients'][:, :] = 0.0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What is kept of a shot on its way, for its result."""
+"""Record of a shot under way, for its result, and the checks that fail a shot."""
 from ..jit import entry, kernel
 from ..mechanics.vector import ZERO, store, load
 from ..state.ball import FAILED, FLIGHT, LAUNCH, REST, moves
@@ -7,8 +7,8 @@ from ..state.events import WENT_OUT, LOST, SHOT_ENDS, next_event
 from . import segment
 
 NOT_FINITE, TOO_MUCH_WORK = 1, 2  # why a shot fails
-# A path may take so many segments a second: twice what a ball takes that several surfaces hold. What goes
-# beyond adds up, is made up for at that rate, and may come to so much; in `make hard` it comes to some 350.
+# Bound on the work of a path, a token bucket: segments a second, twice what a wedged ball takes, and the
+# burst beyond that, which drains at that rate; in `make hard` the burst comes to some 350.
 SUSTAINED_WORK = 10_000.0
 MOST_WORK = 40_000
 APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
@@ -16,10 +16,10 @@ APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a f
 
 @kernel
 def update_apex(ball):
-    """Keep the greatest height that the ball reaches in flight before its first contact. Writes apex."""
+    """Update the greatest height in flight before the first contact with the segment. Writes apex."""
     if ball['phase'] != FLIGHT or ball['landed']:
         return
-    if segment.extent_along(ball, 2)[1] <= ball['apex']:
+    if segment.extent_along(ball, 2)[1] <= ball['apex']:  # no root finding where the control points are lower
         return
     time = ball['end'] - ball['begin']
     start = segment.position(ball, 0.0)[2]
@@ -51,7 +51,10 @@ def update_apex(ball):
 
 @kernel
 def mark_moved_by_ball(ball):
-    """Keep where a ball that nobody struck lay: there it goes back to where it is lost."""
+    """Mark a ball at rest that another one sets off. Writes moved_by_ball, struck_at.
+
+    If it is lost, it goes back to where it lay.
+    """
     if not ball['shot_active'] and ball['phase'] == REST:
         ball['moved_by_ball'] = 1
         store(ball['struck_at'], load(ball['position']))
@@ -59,7 +62,7 @@ def mark_moved_by_ball(ball):
 
 @kernel
 def record_landing(ball, now):
-    """Keep where and how a struck ball first touches the ground. Writes landing."""
+    """Record time, position and velocity of a shot's first contact. Writes landed and the landing fields."""
     if ball['shot_active'] and not ball['landed'] and ball['phase'] == FLIGHT:
         ball['landed'] = 1
         ball['landing'] = now
@@ -69,7 +72,10 @@ def record_landing(ball, now):
 
 @kernel
 def end_shot(ball, number, now, kind, log):
-    """Log the end of the ball's shot, or that it is lost: `kind`. Writes shot_active, ended."""
+    """End the ball's shot and log it as `kind`, SHOT_ENDS or LOST. Writes shot_active, ended, over_time.
+
+    A ball that still moves is over time, and is stopped.
+    """
     ball['ended'] = now
     if moves(ball['phase']):
         ball['over_time'] = 1
@@ -86,7 +92,7 @@ def end_shot(ball, number, now, kind, log):
 
 @kernel
 def check_segment(ball, now):
-    """Why the ball can't go on with the segment that it has got at `now`, or 0.
+    """Reason for which the ball can't go on with its segment planned at `now`, or 0.
 
     Writes counted_until, segments_spent.
     """
@@ -100,12 +106,12 @@ def check_segment(ball, now):
     total = ball['end'] - ball['begin'] + ball['span']
     for k in range(3):
         total += w[1, k] + w[2, k] + w[3, k] + w[4, k] + w[5, k] + s[1, k] + s[2, k] + s[3, k]
-    return 0 if total - total == 0.0 else NOT_FINITE
+    return 0 if total - total == 0.0 else NOT_FINITE  # infinite or not a number: the difference is no zero
 
 
 @kernel
 def is_finite(ball):
-    """Whether the ball's position, velocity and spin are numbers."""
+    """Whether the ball's position, velocity and spin are finite."""
     x = ball['position']
     v = ball['velocity']
     w = ball['spin']
@@ -115,7 +121,10 @@ def is_finite(ball):
 
 @kernel
 def fail(ball, number, now, why, log):
-    """End the way of a ball that can't go on, where it was struck. Writes motion, phase, failed; logs it."""
+    """Fail the shot of a ball that can't go on; it is put back to where it was struck.
+
+    Writes motion, phase, failed; logs the end.
+    """
     ball['failed'] = why
     ball['phase'] = FAILED
     ball['moved_by_ball'] = 0
@@ -127,7 +136,7 @@ def fail(ball, number, now, why, log):
 
 @kernel
 def copy_result(ball, end):
-    """Write what is told of a ball's shot into `end`, an `ENDED` record."""
+    """Copy what a result needs of a ball's shot into `end`, an `ENDED` record."""
     end['phase'] = ball['phase']
     end['support'] = ball['support']
     end['material'] = ball['material']
@@ -165,7 +174,7 @@ def log_out_of_bounds(ball, number, now, log):
 
 @entry
 def begin_shot(ball, now):
-    """Begin a shot with the ball's velocity and spin at `now`. Writes what is kept of a shot."""
+    """Begin a shot with the ball's velocity and spin at `now`. Writes the shot's fields, end and ending."""
     ball['shot_active'] = 1
     ball['moved_by_ball'] = 0
     ball['struck'] = now
