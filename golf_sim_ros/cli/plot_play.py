@@ -21,12 +21,12 @@ def main(args=None):
     """Draw the play of a bag; return the exit code."""
     options = parser().parse_args(args)
     try:
-        from .. import drawing
+        from ..drawing import draw, recorded
     except ImportError as error:
         return failed(f'{NEEDED} ({error})')
     try:
-        play, shots = chosen(read_bag(options.bag), options, drawing.recorded)
-        drawing.draw(options.output, shots, course_under(play, options.course), options.title, options.dpi)
+        play, shots = chosen(read_bag(options.bag), options, recorded)
+        draw(options.output, shots, course_under(play, options.course), options.title, options.dpi)
     except (BagError, CourseError, NoPicture, OSError, ValueError) as error:
         return failed(error)
     print(f'{options.output}: {len(shots)} shot{"s" * (len(shots) > 1)}')
