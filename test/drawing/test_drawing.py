@@ -7,6 +7,7 @@ import pytest
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics import Course, Material, Patch, Plane, Shot, Water, ground_height, simulate
+from golf_sim_ros.physics.scene import kernel_model
 
 pytest.importorskip('matplotlib')
 from matplotlib.colors import to_rgb  # noqa: E402
@@ -137,7 +138,7 @@ def test_the_ground_under_the_side_view_is_the_courses(drive):
     places = np.linspace(10.0, 300.0, 30)
     heights, numbers = drawing.relief.relief(COURSE, places, 3.0)
     for x, z, number in zip(places, heights, numbers):
-        assert (z, drawing.relief.model.material_names(COURSE)[number]) == ground_height(COURSE, x, 3.0)
+        assert (z, kernel_model.material_names(COURSE)[number]) == ground_height(COURSE, x, 3.0)
 
 
 def test_a_grid_is_the_same_material_by_material_though_it_is_looked_at_here_and_there():
