@@ -16,6 +16,7 @@ def test_setup_and_manifest_have_the_version_of_the_package():
 
 
 def test_the_newest_section_of_the_changelog_that_has_a_version_has_this_one_and_a_date():
-    sections = re.findall(r'^(.+)\n-{3,}$', (ROOT / 'CHANGELOG.rst').read_text(encoding='utf-8'), re.MULTILINE)
+    changelog = (ROOT / 'CHANGELOG.rst').read_text(encoding='utf-8')
+    sections = re.findall(r'^(.+)\n-{3,}$', changelog, re.MULTILINE)
     released = [section for section in sections if section != 'Forthcoming']
     assert re.fullmatch(re.escape(golf_sim_ros.__version__) + r' \(\d{4}-\d\d-\d\d\)', released[0])
