@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The documentation: all pages are on the way through it, links lead somewhere, Sphinx builds it."""
+import os
 from pathlib import Path
 import re
 import subprocess
@@ -45,3 +46,11 @@ def test_it_builds_without_a_warning(tmp_path):
                            capture_output=True, text=True)
     assert build.returncode == 0, build.stderr
     assert (tmp_path / 'docs' / 'html' / 'golf_sim_ros.physics.html').is_file()
+
+
+def test_the_example_of_the_readme_prints_what_it_says():
+    text = (ROOT / 'README.md').read_text(encoding='utf-8')
+    example, printed = re.search(r'```python\n(.*?)```\n\nprints `(.*?)`', text, re.DOTALL).groups()
+    run = subprocess.run([sys.executable, '-c', example], cwd=ROOT, capture_output=True, text=True,
+                         env={**os.environ, 'GOLF_SIM_ROS_ENGINE': 'python'})
+    assert run.stdout.strip() == printed, run.stderr
