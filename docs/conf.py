@@ -4,10 +4,17 @@
 Both copy this folder to another one, add pages of the modules by sphinx-apidoc, and build there. So nothing
 here may depend on where this file lies.
 """
+from pathlib import Path
 import re
+import sys
 from xml.etree import ElementTree
 
-import golf_sim_ros
+try:
+    import golf_sim_ros
+except ImportError:  # rosdoc2 executes this file from a conf.py of its own, which says where this one is
+    executed = re.search(r'^exec\(open\("(.*)"\)', Path(__file__).read_text(encoding='utf-8'), re.MULTILINE)
+    sys.path.insert(0, str(Path(executed[1]).parents[1]))
+    import golf_sim_ros
 from golf_sim_ros.course.package_files import share
 
 project = 'golf_sim_ros'
