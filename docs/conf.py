@@ -24,7 +24,8 @@ version = release = golf_sim_ros.__version__
 
 extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.napoleon']
 source_suffix = {'.md': 'markdown', '.rst': 'restructuredtext'}
-exclude_patterns = ['index.rst']  # rosdoc2 writes one where index.md is
+# What rosdoc2 adds: an index where index.md is, and the texts of the repository's root, to which links lead.
+exclude_patterns = ['index.rst', '__readme_include.rst', 'standards.rst', 'standard_docs']
 myst_heading_anchors = 3
 html_theme = 'sphinx_rtd_theme'
 suppress_warnings = ['ref.python']  # a record that a package passes on is found in two places
@@ -47,9 +48,7 @@ def repository():
 
 def link_to_the_repository(app, docname, source):
     """Let links out of this folder, which serve who reads it in a checkout, lead to the repository."""
-    # rosdoc2 adds README.md and its like, which lie one folder up.
-    outside = r'\]\((?:\.\./|(?=(?:docs|test|config|tools)/))'
-    source[0] = re.sub(outside, f']({repository()}/blob/main/', source[0])
+    source[0] = source[0].replace('](../', f']({repository()}/blob/main/')
 
 
 def leave_out(app, what, name, member, skip, options):
