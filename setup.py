@@ -64,7 +64,7 @@ setup(
         'plot': ['matplotlib', 'rosbags>=0.10'],
         'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
-        'docs': ['sphinx>=8.2', 'myst-parser', 'sphinx-rtd-theme'],
+        'docs': ['sphinx>=7.2', 'myst-parser', 'sphinx-rtd-theme'],
         'lint': ['flake8', 'ruff'],
         'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10',
                  'trimesh', 'rasterio', 'dask[distributed]'],

@@ -59,7 +59,7 @@ def leave_out(app, what, name, member, skip, options):
     if type(member).__name__ == '_tuplegetter':
         return True
     is_error = isinstance(member, type) and issubclass(member, Exception)
-    return True if is_error and member.__module__ != app.env.current_document.autodoc_module else None
+    return True if is_error and member.__module__ != app.env.temp_data['autodoc:module'] else None
 
 
 def as_written(app, what, name, thing, options, lines):
