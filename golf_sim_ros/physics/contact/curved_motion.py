@@ -15,7 +15,8 @@ from ..integrators import step
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
 from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, sub, load
-from ..state.ball import FLIGHT, ROLL, SLIDE, moves
+from ..state.ball import ROLL, SLIDE, moves
+from ..state.transitions import begin_rolling, begin_sliding, take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED, contact_rates, material_under, unwinding
 from ..trajectory.segment import fit_segment, position
 from .contact_state import in_micro_bounces, choose_contact_mode, remove_slip
@@ -48,12 +49,11 @@ def curved_segment(model, ball, now):
     # The air is asked only where the weight does not hold the ball: see `press_with_air`.
     holding = press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
     if holding <= 0.0:
-        ball['phase'] = FLIGHT
-        ball['step'] = 0.0
+        take_off(ball)
         return
     grips = needed <= material_under(land, ball)['static_friction'] * press
     if ball['phase'] == ROLL and not grips:
-        ball['phase'] = SLIDE
+        begin_sliding(ball)
     snap_small_motion(land, ball, force, press, grips, now)
     if not moves(ball['phase']):
         return
@@ -136,7 +136,7 @@ def snap_small_motion(land, ball, force, press, grips, now):
         u = slip(v, load(ball['spin']), normal, r)
         if grips and length(u) <= slip_limit(land, press):
             remove_slip(land, ball)
-            ball['phase'] = ROLL
+            begin_rolling(ball)
         return
     slowing = -dot(force, v)
     if length(v) <= LEAST_SPEED or slowing <= 0.0 or material_under(land, ball)['rolling_resistance'] == 0.0:

@@ -17,11 +17,12 @@ from ..mechanics.vector import ZERO, store, unit, load
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws of ball on ball)
 from ..response.contact_set import clear_set, add_to_set
 from ..response.ground_impact import cross_border, resolve_ground_impact
-from ..response.water_impact import sink, leave_water, has_ended_in_water, resolve_water_impact
+from ..response.water_impact import leave_water, has_ended_in_water, resolve_water_impact
 from ..response.wedged_ball import step_wedged, is_wedged
-from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, HOLED, LAUNCH,
+from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, LAUNCH,
                           BALL_IMPACT, OUT, REST, SLIP_STOPS, WATER_ENTRY, STEP_END, TIME_LIMIT, WATER, moves)
 from ..state.events import LOST, SHOT_ENDS
+from ..state.transitions import hole_out, leave_bounds, sink
 from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, check_segment, is_finite, copy_result,
                                       update_apex, begin_shot, log_out_of_bounds)
 from .planner import (LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_next_segment, read_segment,
@@ -128,13 +129,13 @@ def end_if_over(model, ball, number, now, log):
         fail(ball, number, now, NOT_FINITE, log)
     before = ball['phase']
     if moves(before) and is_below_ground(model.land.ground, ball, model.land.ball.radius):
-        ball['phase'] = OUT
+        leave_bounds(ball)
     elif has_ended_in_water(model.land, ball):
         sink(ball)
     elif before == REST and is_in_hole(model, ball):  # no speed of capture: it is holed once it rests there
-        ball['phase'] = HOLED
+        hole_out(ball)
     if is_out(model.land.ground, ball, model.land.ball.radius):
-        ball['phase'] = OUT
+        leave_bounds(ball)
     if ball['phase'] == OUT and before != OUT:
         log_out_of_bounds(ball, number, now, log)
     # A ball set off by another has no shot and so no result: only its loss is logged.

@@ -6,8 +6,8 @@ from ..collision.ball_gap import within_contact_reach
 from ..collision.border_crossing import first_border_crossing
 from ..collision.ground_contact import WEDGED, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_ground_contact
 from ..collision.water_entry import first_water_entry
-from ..contact.contact_state import (heading, contact_material_number, choose_contact_mode, set_support,
-                                     remove_slip)
+from ..contact.contact_state import (heading, contact_material_number, remove_slip, set_support,
+                                     touch_down)
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment
 from ..effects import flight_rates, gravity_at
@@ -19,8 +19,9 @@ from ..mechanics.vector import ZERO, add_scaled, cross, dot, length, store, scal
 from ..response.ground_impact import cross_border
 from ..response.time_stepping import straight_segment, next_step_time
 from ..response.wedged_ball import wedged_step_length, is_wedged
-from ..state.ball import (BORDER_CROSSING, FLIGHT, GROUND_IMPACT, NO_PART, STEPPED, ROLL, SLIDE, WATER_ENTRY,
+from ..state.ball import (BORDER_CROSSING, FLIGHT, GROUND_IMPACT, NO_PART, STEPPED, ROLL, WATER_ENTRY,
                           STEP_END, TIME_LIMIT, moves)
+from ..state.transitions import begin_rolling, take_off
 from ..trajectory import segment
 from ..trajectory.equations_of_motion import LEAST_SPEED
 
@@ -165,16 +166,14 @@ def flat_ground_goes_on(land, ball):
 @kernel
 def launch(model, ball, now):
     """Choose whether a ball sets off in flight or along the ground. Writes phase, motion, contact."""
-    ball['step'] = 0.0
+    take_off(ball)
     ball['rapid_impacts'] = 0
     ball['time_stepping'] = ball['sleeps_on_ball'] = 0
     ball['water'] = 0
     ball['micro_bounce_end'] = now
-    ball['phase'] = FLIGHT
     lift = dot(load(ball['velocity']), load(ball['normal']))
     if ball['support'] >= 0 and abs(lift) <= LEAST_SPEED:
-        ball['phase'] = SLIDE
-        choose_contact_mode(model.land, ball, now)
+        touch_down(model.land, ball, now)
 
 
 @entry
@@ -222,4 +221,4 @@ def stop_slip(model, ball):
     turning = dot(load(ball['spin']), normal)
     rolling = scale(1.0 / model.land.ball.radius, cross(normal, load(ball['velocity'])))
     store(ball['spin'], add_scaled(rolling, turning, normal))
-    ball['phase'] = ROLL
+    begin_rolling(ball)

@@ -4,12 +4,13 @@ from ..collision import ball_interactions
 from ..collision.ball_gap import gap_between
 from ..collision.ground_contact import GENTLE_APPROACH
 from ..collision.workspace import CONTACTS, MultiBallWorkspace, INVOLVED
-from ..contact.contact_state import contact_material_number, choose_contact_mode
+from ..contact.contact_state import contact_material_number, touch_down
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.vector import dot, length, store, load
-from ..state.ball import FLIGHT, SLIDE, moves
+from ..state.ball import FLIGHT, moves
 from ..state.events import BOUNCE, BALL_HIT, next_event
+from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import mark_moved_by_ball
 from . import contact_set, simultaneous_impact
@@ -126,11 +127,9 @@ def resume_motion(land, balls, now, work, first):
             ball['sleeps_on_ball'] = 0
         # A ball that the impact does not lift off its support keeps sliding or rolling there.
         lift = dot(load(ball['velocity']), load(ball['normal']))
-        if ball['time_stepping']:
-            ball['phase'] = FLIGHT
-        elif ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= LEAST_SPEED:
-            ball['phase'] = SLIDE
-            choose_contact_mode(land, ball, now)
+        if not ball['time_stepping'] and ball['phase'] != FLIGHT and ball['support'] >= 0 and (
+                abs(lift) <= LEAST_SPEED):
+            ball['step'] = 0.0
+            touch_down(land, ball, now)
         else:
-            ball['phase'] = FLIGHT
-        ball['step'] = 0.0
+            take_off(ball)

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Impact with the ground: the impulse, and whether the ball flies, slides or rolls afterwards."""
 from ..collision.workspace import INVOLVED
-from ..contact.contact_state import heading, contact_material_number, choose_contact_mode, set_support
+from ..contact.contact_state import (heading, contact_material_number, choose_contact_mode, set_support,
+                                     touch_down)
 from ..effects import effective_normal, gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.impulse import ContactProperties, impulse, apply_impulse
 from ..mechanics.vector import ZERO, add_scaled, dot, length, store, scale, sub, tangential, load
 from ..properties.material import restitution
-from ..state.ball import FLIGHT, SLIDE
+from ..state.ball import FLIGHT
 from ..state.events import BOUNCE, next_event
+from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import record_landing
 from . import contact_set
@@ -132,8 +134,7 @@ def choose_after_impact(land, ball, now, impact, normal, material):
             ball['micro_bounce_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
             ball['micro_bounce_load'] = 0.5 * (1.0 + bounciness)
             set_support(land, ball, surfaces.support_of(land.ground, ball['target']), normal)
-            ball['phase'] = SLIDE
-            choose_contact_mode(land, ball, now)
+            touch_down(land, ball, now)
             return
     else:
         # A wall has no micro-bounces to sum: a least rebound bounds the number of impacts instead.
@@ -141,11 +142,9 @@ def choose_after_impact(land, ball, now, impact, normal, material):
         if rebound < least:
             store(ball['velocity'], add_scaled(load(ball['velocity']), least - rebound, normal))
         if supported and abs(dot(load(ball['velocity']), load(ball['normal']))) <= LEAST_SPEED:
-            ball['phase'] = SLIDE
-            choose_contact_mode(land, ball, now)
+            touch_down(land, ball, now)
             return
-    ball['phase'] = FLIGHT
-    ball['step'] = 0.0
+    take_off(ball)
     store(ball['normal'], normal)
 
 
@@ -198,8 +197,7 @@ def cross_border(land, ball, now):
     ahead = heading(land, ball)
     part, normal = surfaces.touched(land.ground, load(ball['position']), land.ball.radius, ahead)
     if part < 0:  # the ground ends here
-        ball['phase'] = FLIGHT
-        ball['step'] = 0.0
+        take_off(ball)
         return
     distance, normal = surfaces.under(land.ground, part, load(ball['position']), ahead)
     store(ball['position'], add_scaled(load(ball['position']), land.ball.radius - distance, normal))

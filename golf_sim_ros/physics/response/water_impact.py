@@ -3,9 +3,9 @@
 from math import asin, pi, sqrt
 
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, dot, length, store, scale, sub, load
+from ..mechanics.vector import dot, length, store, scale, sub, load
 from ..properties.water import ADDED_MASS, WATER_DENSITY
-from ..state.ball import FLIGHT, NO_PART, WATER, moves
+from ..state.ball import FLIGHT, NO_PART, moves
 from ..state.events import WATER_HIT, next_event
 from ..trajectory.shot_record import record_landing
 
@@ -104,11 +104,3 @@ def has_ended_in_water(land, ball):
     depth = land.ground.waters.levels[ball['water'] - 1] - ball['position'][2]
     slow = dot(v, v) < SINKING_SPEED * SINKING_SPEED
     return depth > DEEPEST or slow and (depth > DEEP * land.ball.radius or v[2] >= 0.0)
-
-
-@kernel
-def sink(ball):
-    """End the ball's path in the water. Writes phase and motion."""
-    ball['phase'] = WATER
-    store(ball['velocity'], ZERO)
-    store(ball['spin'], ZERO)

@@ -2,8 +2,9 @@
 """Record of a shot under way, for its result, and the checks that fail a shot."""
 from ..jit import entry, kernel
 from ..mechanics.vector import ZERO, store, load
-from ..state.ball import FAILED, FLIGHT, LAUNCH, REST, moves
+from ..state.ball import FLIGHT, LAUNCH, REST, moves
 from ..state.events import WENT_OUT, LOST, SHOT_ENDS, next_event
+from ..state.transitions import come_to_rest, put_back
 from . import segment
 
 NOT_FINITE, TOO_MUCH_WORK = 1, 2  # why a shot fails
@@ -79,9 +80,7 @@ def end_shot(ball, number, now, kind, log):
     ball['ended'] = now
     if moves(ball['phase']):
         ball['over_time'] = 1
-        ball['phase'] = REST
-        store(ball['velocity'], ZERO)
-        store(ball['spin'], ZERO)
+        come_to_rest(ball)
     ball['shot_active'] = 0
     event = next_event(log)
     event['time'] = now
@@ -126,11 +125,8 @@ def fail(ball, number, now, why, log):
     Writes motion, phase, failed; logs the end.
     """
     ball['failed'] = why
-    ball['phase'] = FAILED
     ball['moved_by_ball'] = 0
-    store(ball['position'], load(ball['struck_at']))
-    store(ball['velocity'], ZERO)
-    store(ball['spin'], ZERO)
+    put_back(ball)
     end_shot(ball, number, now, SHOT_ENDS if ball['shot_active'] else LOST, log)
 
 
