@@ -2,7 +2,7 @@
 """One module writes the phase of a ball, and one the events of impacts: read from the sources."""
 import ast
 
-from sources import field_of, targets, trees
+from sources import field_of, functions, targets, trees
 
 NOT_A_BALL = {('trajectory/shot_record.py', 'end')}  # an ENDED record gets a copy of the phase
 LOGS_THE_END_OF_A_SHOT = ('trajectory/shot_record.py', 'end_shot')
@@ -25,3 +25,10 @@ def test_each_phase_has_its_transition():
                if field_of(target)[1] == 'phase']
     assert sorted(written) == sorted(
         ['REST', 'FLIGHT', 'SLIDE', 'ROLL', 'HOLED', 'WATER', 'OUT', 'FAILED'])
+
+
+def test_the_collision_log_alone_writes_events_of_impacts():
+    callers = {(place, function.name) for place, tree in trees() for function in functions(tree)
+               for node in ast.walk(function)
+               if isinstance(node, ast.Call) and ast.unparse(node.func).endswith('next_event')}
+    assert callers == {('response/collision_log.py', 'log_impact'), LOGS_THE_END_OF_A_SHOT}

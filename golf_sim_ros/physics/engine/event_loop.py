@@ -15,6 +15,7 @@ from ..geometry import surfaces
 from ..jit import borrowed, cycles, entry, kernel, shared
 from ..mechanics.vector import ZERO, store, unit, load
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws of ball on ball)
+from ..response.collision_log import log_out_of_bounds
 from ..response.contact_set import clear_set, add_to_set
 from ..response.ground_impact import cross_border, resolve_ground_impact
 from ..response.water_impact import leave_water, has_ended_in_water, resolve_water_impact
@@ -24,7 +25,7 @@ from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMP
 from ..state.events import LOST, SHOT_ENDS
 from ..state.transitions import hole_out, leave_bounds, sink
 from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, check_segment, is_finite, copy_result,
-                                      update_apex, begin_shot, log_out_of_bounds)
+                                      update_apex, begin_shot)
 from .planner import (LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_next_segment, read_segment,
                       stop_slip)
 

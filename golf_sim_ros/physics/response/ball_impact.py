@@ -9,11 +9,12 @@ from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.vector import dot, length, store, load
 from ..state.ball import FLIGHT, moves
-from ..state.events import BOUNCE, BALL_HIT, next_event
+from ..state.events import BOUNCE, BALL_HIT
 from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import mark_moved_by_ball
 from . import contact_set, simultaneous_impact
+from .collision_log import NOT_A_PART, log_impact
 from .time_stepping import return_to_events, begin_time_stepping
 
 RAPID_BALL_IMPACT = 1e-4  # s between impacts: shorter where balls are coming to rest on each other
@@ -73,10 +74,10 @@ def resolve_contact_set(land, balls, now, work, first, log):
         if row['b'] < 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
             ball = balls[row['a']]
             ball['bounces'] += 1
-            event = log_contact_impact(balls, now, row, work, log)
-            event['kind'] = BOUNCE
-            event['material'] = contact_material_number(land, ball, row['part'], load(row['normal']))
-            event['sort'] = surfaces.sort(land.ground, row['part'])
+            normal = load(row['normal'])
+            material = contact_material_number(land, ball, row['part'], normal)
+            hit = BOUNCE, material, surfaces.sort(land.ground, row['part']), normal
+            log_impact(ball, (now, row['a']), hit, motion_before(work, row['a']), load(row['impulse']), log)
 
 
 @ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
@@ -84,9 +85,9 @@ def _tell_bumps(work, balls, now, log):
     for n in range(work.count[CONTACTS]):
         row = work.contacts[n]
         if row['b'] >= 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
-            event = log_contact_impact(balls, now, row, work, log)
-            event['kind'] = BALL_HIT
-            event['material'] = row['b']
+            hit = BALL_HIT, row['b'], NOT_A_PART, load(row['normal'])
+            log_impact(balls[row['a']], (now, row['a']), hit, motion_before(work, row['a']),
+                       load(row['impulse']), log)
 
 
 @kernel
@@ -99,20 +100,9 @@ def store_motion_before(balls, work):
 
 
 @kernel
-def log_contact_impact(balls, now, row, work, log):
-    """Log the impact of a contact's ball `a`; the event is returned without kind, material and sort."""
-    ball = balls[row['a']]
-    event = next_event(log)
-    event['time'] = now
-    event['ball'] = row['a']
-    store(event['position'], load(ball['position']))
-    store(event['normal'], load(row['normal']))
-    store(event['velocity_before'], load(work.motion_before[row['a'], 0:3]))
-    store(event['velocity_after'], load(ball['velocity']))
-    store(event['spin_before'], load(work.motion_before[row['a'], 3:6]))
-    store(event['spin_after'], load(ball['spin']))
-    store(event['impulse'], load(row['impulse']))
-    return event
+def motion_before(work, i):
+    """Velocity and spin of ball `i` before the impact."""
+    return load(work.motion_before[i, 0:3]), load(work.motion_before[i, 3:6])
 
 
 @kernel

@@ -10,12 +10,13 @@ from ..mechanics.impulse import ContactProperties, impulse, apply_impulse
 from ..mechanics.vector import ZERO, add_scaled, dot, length, store, scale, sub, tangential, load
 from ..properties.material import restitution
 from ..state.ball import FLIGHT
-from ..state.events import BOUNCE, next_event
+from ..state.events import BOUNCE
 from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import record_landing
 from . import contact_set
 from .ball_impact import LEAST_LOGGED_APPROACH, resolve_contact_set, resume_motion
+from .collision_log import log_impact
 from .contact_solver import is_pressed_by_gravity
 from .time_stepping import return_to_events
 from .wedged_ball import RAPID, step_wedged, is_wedged
@@ -71,7 +72,9 @@ def resolve_ground_impact(land, balls, i, now, work, log):
         apply_bounce(land, ball, normal, material)
     rebound = max(dot(load(ball['velocity']), normal), 0.0)
     if approach > LEAST_LOGGED_APPROACH:
-        log_ground_impact(land, ball, i, now, normal, number, before, log)
+        hit = BOUNCE, number, surfaces.sort(land.ground, ball['target']), normal
+        push = scale(land.ball.mass, sub(load(ball['velocity']), before[0]))
+        log_impact(ball, (now, i), hit, before, push, log)
     # One longer segment among many short ones does not reset the count: between two lips they come in waves.
     if now - ball['begin'] < RAPID:
         ball['rapid_impacts'] += 1
@@ -96,24 +99,6 @@ def apply_bounce(land, ball, normal, material):
     rebound = dot(load(ball['velocity']), normal)
     if rebound < 0.0:  # soft turf tilts the normal, which may leave velocity into the true surface
         store(ball['velocity'], add_scaled(load(ball['velocity']), -rebound, normal))
-
-
-@kernel
-def log_ground_impact(land, ball, number, now, normal, material, before, log):
-    """Log an impact of a ball with the ground."""
-    event = next_event(log)
-    event['time'] = now
-    event['ball'] = number
-    event['kind'] = BOUNCE
-    event['material'] = material
-    event['sort'] = surfaces.sort(land.ground, ball['target'])
-    store(event['position'], load(ball['position']))
-    store(event['normal'], normal)
-    store(event['velocity_before'], before[0])
-    store(event['velocity_after'], load(ball['velocity']))
-    store(event['spin_before'], before[1])
-    store(event['spin_after'], load(ball['spin']))
-    store(event['impulse'], scale(land.ball.mass, sub(load(ball['velocity']), before[0])))
 
 
 @kernel

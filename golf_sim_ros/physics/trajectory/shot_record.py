@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Record of a shot under way, for its result, and the checks that fail a shot."""
 from ..jit import entry, kernel
-from ..mechanics.vector import ZERO, store, load
+from ..mechanics.vector import store, load
 from ..state.ball import FLIGHT, LAUNCH, REST, moves
-from ..state.events import WENT_OUT, LOST, SHOT_ENDS, next_event
+from ..state.events import LOST, SHOT_ENDS, next_event
 from ..state.transitions import come_to_rest, put_back
 from . import segment
 
@@ -149,23 +149,6 @@ def copy_result(ball, end):
     end['bounces'] = ball['bounces']
     end['ended'] = ball['ended']
     end['over_time'] = ball['over_time']
-
-
-@kernel
-def log_out_of_bounds(ball, number, now, log):
-    """Log that the ball has gone out of bounds."""
-    event = next_event(log)
-    event['time'] = now
-    event['ball'] = number
-    event['kind'] = WENT_OUT
-    event['material'] = ball['material'] if ball['support'] >= 0 else -1
-    store(event['position'], load(ball['position']))
-    store(event['normal'], load(ball['normal']))
-    store(event['velocity_before'], load(ball['velocity']))
-    store(event['velocity_after'], load(ball['velocity']))
-    store(event['spin_before'], load(ball['spin']))
-    store(event['spin_after'], load(ball['spin']))
-    store(event['impulse'], ZERO)
 
 
 @entry
