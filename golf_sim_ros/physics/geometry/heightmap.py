@@ -336,11 +336,10 @@ def _support_of(kind, part):
     return grid['number'] if part < len(kind.cells) and grid['gentle'] else part
 
 
-@surface_protocol.goes_on.register(Maps)
-def _goes_on(kind, part, other):
-    # A map's own walls are no obstacles either: a ball on the map touches only their upper edge, which is the
-    # map's.
-    return part == kind.grids[grid_of(kind, part)]['number'] and grid_of(kind, part) == grid_of(kind, other)
+@surface_protocol.smooth_surface.register(Maps)
+def _smooth_surface(kind, part):
+    # With a map's own walls: a ball on the map touches only their upper edge, which is the map's.
+    return kind.grids[grid_of(kind, part)]['number']
 
 
 @surface_protocol.material_of.register(Maps)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Log of collisions: the one writer of what is told of impacts with ground, balls and water, and of going out."""
+"""Log of collisions: the one writer of events of impacts, with ground, balls and water, and of going out."""
 from ..jit import kernel
 from ..mechanics.vector import ZERO, load, store
 from ..state.events import WENT_OUT, next_event
