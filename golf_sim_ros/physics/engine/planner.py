@@ -52,18 +52,39 @@ def plan_next_segment(model, ball, now):
         return
     if ball['phase'] == FLIGHT:
         on = IN_THE_AIR
-        if ball['time_stepping'] == STEPPED:
-            straight_segment(ball, next_step_time(now) - now)
-        else:
-            step(model, ball)
+        flight_segment(model, ball, now)
     # A wedged or time-stepped ball moves as in flight; its contacts are solved at the step's end.
-    until = ball['span']
+    if ball['time_stepping'] > 0 or is_wedged(ball):
+        on = WEDGED
+    until = limit_by_ground(model, ball, span_to_solve(ball, now), on)
+    end_segment(model, ball, now, limit_by_water(model, ball, until))
+
+
+@kernel
+def flight_segment(model, ball, now):
+    """Plan a segment of flight: a step of the integrator, of a time-stepped ball a straight line.
+
+    Writes curve, span, step, ending.
+    """
+    if ball['time_stepping'] == STEPPED:
+        straight_segment(ball, next_step_time(now) - now)
+    else:
+        step(model, ball)
+
+
+@kernel
+def span_to_solve(ball, now):
+    """Span of the segment, cut to the time at which the ball's contacts are solved, if they are."""
     if ball['time_stepping']:
-        on = WEDGED
-        until = min(until, next_step_time(now) - now)
-    elif is_wedged(ball):
-        on = WEDGED
-        until = min(until, wedged_step_length(ball))
+        return min(ball['span'], next_step_time(now) - now)
+    if is_wedged(ball):
+        return min(ball['span'], wedged_step_length(ball))
+    return ball['span']
+
+
+@kernel
+def limit_by_ground(model, ball, until, on):
+    """First time, at most `until`, of a border or an impact with the ground. Writes ending, target."""
     # Borders first: on a mesh the next one is near, and contacts beyond it need no search.
     crosses = False
     if on == ON_FLAT or on == ON_CURVE:
@@ -79,7 +100,15 @@ def plan_next_segment(model, ball, now):
         ball['ending'] = BORDER_CROSSING
     if until < ball['span'] and ball['ending'] != GROUND_IMPACT and ball['ending'] != BORDER_CROSSING:
         ball['ending'] = STEP_END
-    # Water last: it needs no search beyond the other events.
+    return until
+
+
+@kernel
+def limit_by_water(model, ball, until):
+    """First time, at most `until`, of an entry into water, or of a look at a sinking ball.
+
+    Writes ending, target.
+    """
     if ball['water'] > 0:
         if until > SINKING_STEP:
             until = SINKING_STEP
@@ -89,7 +118,7 @@ def plan_next_segment(model, ball, now):
         if water > 0:
             ball['ending'] = WATER_ENTRY
             ball['target'] = water
-    end_segment(model, ball, now, until)
+    return until
 
 
 @kernel

@@ -137,15 +137,16 @@ def collect_ground_contacts(land, ball, i, work, begin):
     place = load(ball['position'])
     if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(work, begin, load(ball['normal'])):
         normal = load(ball['normal'])
-        add_ground_contact(land, ball, i, ball['support'], normal,
-                           contact_material(land, ball, ball['support'], normal), work)
+        material = contact_material(land, ball, ball['support'], normal)
+        add_ground_contact(land, ball, i, (ball['support'], normal), material, work)
     low, high = surfaces.around(place, land.ball.radius + SIMULTANEOUS_GAP)
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         distance, normal = surfaces.nearest(ground, part, place)
         if distance - land.ball.radius <= SIMULTANEOUS_GAP and is_new_normal(work, begin, normal) and (
                 surfaces.touchable(ground, part, place)):
-            add_ground_contact(land, ball, i, part, normal, contact_material(land, ball, part, normal), work)
+            material = contact_material(land, ball, part, normal)
+            add_ground_contact(land, ball, i, (part, normal), material, work)
         part = surfaces.next_part(ground, part + 1, low, high)
 
 
@@ -159,8 +160,12 @@ def is_new_normal(work, begin, normal):
 
 
 @kernel
-def add_ground_contact(land, ball, i, part, normal, material, work):
-    """Add the contact of ball `i` with `part` of the ground, of that `material`. Writes contacts."""
+def add_ground_contact(land, ball, i, touched, material, work):
+    """Add the contact of ball `i` with what it touches, a part and its normal, of that `material`.
+
+    Writes contacts.
+    """
+    part, normal = touched
     n = add_contact(work, i, -1, part, normal)
     if n < 0:
         return

@@ -62,7 +62,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
     before = load(ball['velocity']), load(ball['spin'])
     number = contact_material_number(land, ball, ball['target'], normal)
     material = land.materials[number]
-    contact_set.add_ground_contact(land, ball, i, ball['target'], normal, material, work)
+    contact_set.add_ground_contact(land, ball, i, (ball['target'], normal), material, work)
     contact_set.collect_contacts(land, balls, work, now, 1 if alone else 0)
     # A single approaching contact has a closed form; several at one instant are solved together.
     if work.count[INVOLVED] > 1 or contact_set.count_approaching(balls, work) > 1:
