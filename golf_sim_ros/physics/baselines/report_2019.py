@@ -112,7 +112,7 @@ def move(model, ball):
 
 @kernel
 def push_out(land, ball, time, absorbs):
-    """Push the ball out of what it is in, and let it bounce. Writes motion and phase."""
+    """Push the ball out of what it is in, and let it bounce. Writes motion, phase, landing."""
     low, high = surfaces.around(load(ball['position']), land.ball.radius)
     part = surfaces.next_part(land.ground, 0, low, high)
     while part >= 0:

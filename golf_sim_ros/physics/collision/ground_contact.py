@@ -232,7 +232,10 @@ def has_many_parts(ground, low, high):
 
 @kernel
 def first_in_box(ground, ball, radius, stretch, box, on):
-    """`first_ground_contact` over a `stretch` of time, begin and end, with parts that overlap the `box`."""
+    """`first_ground_contact` over a `stretch` of time, begin and end, with parts that overlap the `box`.
+
+    Writes segments_spent.
+    """
     begin, end = stretch
     low, high = box
     best = end

@@ -40,7 +40,8 @@ SLIP_TIME = 1e-8  # s: or below what friction takes in this time, which is longe
 def curved_segment(model, ball, now):
     """Plan a step along ground that is not flat, or lift off where nothing presses.
 
-    Writes the curve, step, and in small ways motion and phase; see `snap_small_motion`.
+    Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in small ways
+    only: see `snap_small_motion`.
     """
     land = model.land
     place = load(ball['position'])
@@ -228,10 +229,10 @@ def gained(land, ball):
 
 @shared
 def project_to_ground(land, ball):
-    """Press at the segment's end, which is projected onto the ground and its tangent plane. Writes the curve.
+    """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
     The position is not projected after the shortest of steps: its rounding error far from the origin,
-    5e-14 m, over a nanosecond is speed.
+    5e-14 m, over a nanosecond is speed. Writes curve.
     """
     r = land.ball.radius
     x0 = load(ball['position'])

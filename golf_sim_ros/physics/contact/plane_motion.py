@@ -29,7 +29,7 @@ RELATIVE_ROUNDING = 1e-15  # or than this share of its distance from the origin
 def plane_segment(land, ball, now):
     """Plan a segment of sliding or rolling on a plane, up to a stop or as far as a Bezier curve is exact.
 
-    Writes the curve, span and ending.
+    Writes curve, ending.
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
@@ -106,7 +106,7 @@ def glide_error(ball, motion, coast, q):
 
 @kernel
 def fit_glide(land, ball, motion, coast, q, pivot):
-    """Fit the segment to the closed form up to the parameter `q`. Writes the curve and span.
+    """Fit the segment to the closed form up to the parameter `q`. Writes curve.
 
     `pivot` is the spin about the normal, and its deceleration.
     """

@@ -47,7 +47,7 @@ def advance(model, balls, until, work, log):
 
 @shared
 def run_events(model, balls, until, work, log):
-    """`advance`, with borrowed records."""
+    """`advance`, with borrowed records. Writes balls, work, log."""
     for i in range(len(balls)):
         work.segment_ends[i] = balls[i]['end']
     ball_interactions.prepare_broad_phase(work, balls, model.land.ball.radius)
@@ -79,7 +79,7 @@ def run_events(model, balls, until, work, log):
 
 @kernel
 def resolve(model, balls, i, work, log):
-    """Bring ball `i` to the end of its segment and resolve the event there. Writes motion, phase, contact.
+    """Bring ball `i` to the end of its segment and resolve the event there. Writes ball, work.
 
     Other balls that this moves become involved. Impacts are logged.
     """
@@ -125,7 +125,10 @@ def resolve(model, balls, i, work, log):
 
 @kernel
 def end_if_over(model, ball, number, now, log):
-    """End the shot of a ball that has stopped, is lost, or is over time. Writes phase, shot; logs it."""
+    """End the shot of a ball that has stopped, is lost, or is over time. Logs it.
+
+    Writes motion, phase, shot.
+    """
     if not is_finite(ball):
         fail(ball, number, now, NOT_FINITE, log)
     before = ball['phase']
@@ -150,7 +153,10 @@ def end_if_over(model, ball, number, now, log):
 
 @kernel
 def plan_or_fail(model, ball, number, now, log):
-    """Plan the ball's next segment, or fail its shot if it can't go on. Writes segment, phase."""
+    """Plan the ball's next segment, or fail its shot if it can't go on.
+
+    Writes segment, integrator, contact, phase, motion, shot; logs a failure.
+    """
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):
         why = check_segment(ball, now)
@@ -161,7 +167,7 @@ def plan_or_fail(model, ball, number, now, log):
 
 @kernel
 def note_segment(balls, i, radius, work, since):
-    """Enter ball `i`'s new segment into the workspace. Writes segment_ends, the tree, spent.
+    """Enter ball `i`'s new segment into the workspace. Writes segment_ends, tree, spent.
 
     Takes and returns cycles as `count_cycles` does.
     """
@@ -195,7 +201,9 @@ def cycles_now():
 
 @kernel
 def limit_by_balls(balls, i, radius, now, work):
-    """End ball `i`'s segment where it hits another ball. Writes end, ending, target, segment_ends, the tree.
+    """End ball `i`'s segment where it hits another ball.
+
+    Writes end, ending, target, segment_ends, tree.
 
     A ball at rest ends the segments of others instead.
     """
@@ -241,7 +249,7 @@ def play_all(model, ball, strikes, gusts, work, log):
     """Play shots one after the other, each from the state in `ball`; their ends, an `ENDED` array.
 
     `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
-    the strike, the first 0, and the wind from then on. Overwrites `work` and `log`.
+    the strike, the first 0, and the wind from then on. Writes work, log.
     """
     model = borrowed(model)
     work = borrowed(work)
@@ -274,7 +282,7 @@ def play_all(model, ball, strikes, gusts, work, log):
 def end_now(ball, now):
     """End a flying ball's segment at `now`, since its surroundings have changed.
 
-    Writes end, ending, last_stage_time: the last stage holds rates in the old surroundings.
+    Writes end, ending, last_stage_time. The last stage holds rates in the old surroundings.
     """
     if ball['phase'] == FLIGHT:
         ball['end'] = now

@@ -37,7 +37,8 @@ SINKING_STEP = 0.02  # s: longest segment under water, at whose end the ball may
 def plan_next_segment(model, ball, now):
     """Plan the ball's next segment from its state at `now`, up to its first event.
 
-    Writes begin, end, ending, target and the curve; support, contact and phase where those change.
+    Writes segment, integrator, segments_spent, zero_length_segments, contact, phase, motion. The last three
+    change only where contact does.
     """
     ball['begin'] = now
     if not moves(ball['phase']):
@@ -64,7 +65,7 @@ def plan_next_segment(model, ball, now):
 def flight_segment(model, ball, now):
     """Plan a segment of flight: a step of the integrator, of a time-stepped ball a straight line.
 
-    Writes curve, span, step, ending.
+    Writes curve, ending, integrator.
     """
     if ball['time_stepping'] == STEPPED:
         straight_segment(ball, next_step_time(now) - now)
@@ -84,7 +85,10 @@ def span_to_solve(ball, now):
 
 @kernel
 def limit_by_ground(model, ball, until, on):
-    """First time, at most `until`, of a border or an impact with the ground. Writes ending, target."""
+    """First time, at most `until`, of a border or an impact with the ground.
+
+    Writes ending, target, segments_spent.
+    """
     # Borders first: on a mesh the next one is near, and contacts beyond it need no search.
     crosses = False
     if on == ON_FLAT or on == ON_CURVE:
@@ -141,7 +145,9 @@ def end_segment(model, ball, now, until):
 
 @shared
 def contact_segment(model, ball, now):
-    """Plan a segment of a ball in contact; what it is on, such as ON_FLAT. Writes curve, contact, phase.
+    """Plan a segment of a ball in contact; what it is on, such as ON_FLAT.
+
+    Writes motion, phase, contact, curve, ending, integrator, segments_spent.
 
     The ball may turn out to lift off.
     """
@@ -164,7 +170,7 @@ def contact_segment(model, ball, now):
 
 @shared
 def apply_air_to_micro_bounces(model, ball, now):
-    """Apply the air to micro-bounces. Writes micro_bounce_end, micro_bounce_load, micro_bounce_air, spin.
+    """Apply the air to micro-bounces. Writes micro_bounces, velocity, spin.
 
     Drag and torque act for their whole duration; lift makes them last longer and press less.
     """
@@ -194,7 +200,10 @@ def flat_ground_goes_on(land, ball):
 
 @kernel
 def launch(model, ball, now):
-    """Choose whether a ball sets off in flight or along the ground. Writes phase, motion, contact."""
+    """Choose whether a ball sets off in flight or along the ground.
+
+    Writes phase, step, velocity, spin, pile, water, micro_bounce_end.
+    """
     take_off(ball)
     ball['rapid_impacts'] = 0
     ball['time_stepping'] = ball['sleeps_on_ball'] = 0
@@ -209,8 +218,8 @@ def launch(model, ball, now):
 def put_down(model, ball, position, depth):
     """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
 
-    Writes motion, support, material and normal, and the segment; the ball is at rest. Returns whether it
-    touches anything, how deep [m] it lies in the ground, and whether it is in water.
+    The ball is at rest. Returns whether it touches anything, how deep [m] it lies in the ground, and whether
+    it is in water. Writes motion, contact, curve, segments_spent.
     """
     model = borrowed(model)
     store(ball['position'], position)
@@ -235,7 +244,7 @@ def put_down(model, ball, position, depth):
 
 @kernel
 def read_segment(ball, now):
-    """Write the ball's position, velocity and spin at `now`, on its present segment."""
+    """Bring the ball to where it is at `now`, on its present segment. Writes motion."""
     if moves(ball['phase']) and now > ball['begin']:
         time = now - ball['begin']
         store(ball['position'], segment.position(ball, time))

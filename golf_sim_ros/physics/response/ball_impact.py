@@ -29,9 +29,9 @@ def _bump(work, land, balls, i, now, log):
 
 @shared
 def collide_balls(land, balls, i, now, work, log):
-    """Resolve the impact of ball `i` with its target, and with all that touches. Writes motion; logs impacts.
+    """Resolve the impact of ball `i` with its target, and with all that touches; it is logged.
 
-    Impacts that follow each other ever faster hand the balls over to time stepping.
+    Impacts that follow each other ever faster hand the balls over to time stepping. Writes ball, work.
     """
     j = balls[i]['target']
     contact_set.add_to_set(work, j)
@@ -60,9 +60,10 @@ def collide_balls(land, balls, i, now, work, log):
 
 @shared
 def resolve_contact_set(land, balls, now, work, first, log):
-    """Resolve the impact of the involved balls at all their contacts. Writes motion, motion_before, bounces.
+    """Resolve the impact of the involved balls at all their contacts.
 
-    Logs the impacts; with the ground, those of contacts from row `first` on.
+    Logs the impacts; with the ground, those of contacts from row `first` on. Writes velocity, spin, bounces,
+    moved_by_ball, struck_at, contacts, contact_counts, velocity_change, motion_before.
     """
     for k in range(work.count[INVOLVED]):
         mark_moved_by_ball(balls[work.involved[k]])
@@ -107,7 +108,10 @@ def motion_before(work, i):
 
 @kernel
 def resume_motion(land, balls, now, work, first):
-    """Choose phase and contact of the involved balls, from `first` on, after an impact. Writes both."""
+    """Choose phase and contact of the involved balls, from `first` on, after an impact.
+
+    Writes phase, step, velocity, spin, micro_bounce_end, sleeps_on_ball.
+    """
     for k in range(first, work.count[INVOLVED]):
         ball = balls[work.involved[k]]
         if not moves(ball['phase']):

@@ -41,9 +41,10 @@ def synchronize(ball, now):
 
 @shared
 def collect_contacts(land, balls, work, now, known):
-    """Collect the contacts of the involved balls and of all that they touch. Writes involved, contacts.
+    """Collect the contacts of the involved balls and of all that they touch, brought to the present.
 
-    The first `known` balls have their contacts with the ground already.
+    The first `known` balls have their contacts with the ground already. Writes contacts, involved, motion,
+    end, ending, apex.
     """
     k = 0
     while k < work.count[INVOLVED]:
@@ -74,7 +75,10 @@ def clear_set(work):
 
 @kernel
 def add_contact(work, a, b, part, normal):
-    """Add a contact of ball `a` with ball `b`, or with a part of the ground; its row, or -1 when full."""
+    """Add a contact of ball `a` with ball `b`, or with a part of the ground; its row, or -1 when full.
+
+    Writes contacts.
+    """
     n = work.count[CONTACTS]
     if n == len(work.contacts):
         return -1

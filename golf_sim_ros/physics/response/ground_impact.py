@@ -33,7 +33,7 @@ LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 @shared
 def resolve_ground_impact(land, balls, i, now, work, log):
-    """Resolve the impact of ball `i` with its target. Writes motion, phase and contact; logs the impact.
+    """Resolve the impact of ball `i` with its target. Writes ball, work; logs the impact.
 
     Other balls that touch it take part in the impact and become involved.
     """
@@ -103,7 +103,9 @@ def apply_bounce(land, ball, normal, material):
 
 @kernel
 def choose_after_impact(land, ball, now, impact, normal, material):
-    """Choose between flight and contact after an impact. Writes phase, contact, velocity and spin.
+    """Choose between flight and contact after an impact.
+
+    Writes phase, step, contact, micro_bounces, velocity, spin.
 
     The ball flies, or stays on what it hit if gravity presses it there, or on what it was on before.
     """
@@ -178,7 +180,10 @@ def micro_bounce_threshold(land, ball):
 
 @shared
 def cross_border(land, ball, now):
-    """Find the support of a ball that has reached a border in plan. Writes position, phase and contact."""
+    """Find the support of a ball that has reached a border in plan.
+
+    Writes motion, phase, step, contact.
+    """
     ahead = heading(land, ball)
     part, normal = surfaces.touched(land.ground, load(ball['position']), land.ball.radius, ahead)
     if part < 0:  # the ground ends here

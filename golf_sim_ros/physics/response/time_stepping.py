@@ -54,7 +54,7 @@ def is_step_time(now):
 
 @kernel
 def begin_time_stepping(ball):
-    """Switch a ball from events to time stepping. Writes time_stepping, phase, and what goes with them."""
+    """Switch a ball from events to time stepping. Writes phase, pile, step, moved_by_ball, struck_at."""
     mark_moved_by_ball(ball)
     ball['sleeps_on_ball'] = 0
     ball['time_stepping'] = JOINED
@@ -73,7 +73,7 @@ def return_to_events(ball):
 
 @kernel
 def straight_segment(ball, span):
-    """Plan a straight segment of `span` seconds. Writes the curve, span and ending."""
+    """Plan a straight segment of `span` seconds. Writes curve, ending."""
     v = load(ball['velocity'])
     ball['span'] = span
     ball['ending'] = STEP_END
@@ -132,7 +132,7 @@ def _rouse(work, balls, radius, now):
 
 @shared
 def solve_time_step(land, balls, now, work):
-    """Solve one time step of all time-stepped balls that are due. Writes motion and phases."""
+    """Solve one time step of all time-stepped balls that are due. Writes ball, work."""
     for i in range(len(balls)):
         if balls[i]['time_stepping'] and work.segment_ends[i] == now and work.involved_index[i] < 0:
             add_to_set(work, i)
@@ -169,7 +169,7 @@ def apply_gravity(land, balls, work, i):
 def collect_resting_contacts(land, balls, work, now):
     """Collect the contacts of the involved balls within reach; sleepers that they push join.
 
-    Writes contacts, involved, contact_reach, watches_neighbours.
+    Writes contacts, involved, neighbours, solved_motion, pile, phase, step, struck_at, moved_by_ball.
     """
     reach = contact_reach(work)
     k = 0
@@ -199,7 +199,7 @@ def collect_resting_contacts(land, balls, work, now):
 def choose_after_step(land, ball, now, work):
     """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
 
-    Writes motion, phase, time_stepping, sleeps_on_ball, still_steps.
+    Writes motion, phase, step, pile, count.
     """
     speed = length(load(ball['velocity']))
     left = max(speed - ball['rolling_loss'], 0.0)

@@ -34,9 +34,10 @@ def specific_gravity(record):
 
 @shared
 def resolve_water_impact(land, ball, number, now, log):
-    """Resolve the impact of ball `number` with water: ricochet or entry. Writes motion, water; logs it.
+    """Resolve the impact of ball `number` with water, ricochet or entry, and log it.
 
-    A ball that enters shares its momentum with its added mass.
+    A ball that enters shares its momentum with its added mass. Writes water, velocity, spin, contact, step,
+    pile, landing, bounces.
     """
     record_landing(ball, now)
     velocity = load(ball['velocity'])

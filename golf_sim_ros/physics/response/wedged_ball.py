@@ -42,9 +42,10 @@ def wedged_step_length(ball):
 
 @shared
 def step_wedged(land, balls, i, now, work):
-    """Solve the contacts of the wedged ball `i` at a time step's end. Writes motion, phase and contact.
+    """Solve the contacts of the wedged ball `i` at a time step's end.
 
-    A ball with one support left, or none, is no longer wedged.
+    A ball with one support left, or none, is no longer wedged. Writes motion, phase, contact, integrator,
+    pile, contacts, solved_motion, position_change.
     """
     ball = balls[i]
     store(work.solved_motion[i, 0:3], load(ball['velocity']))

@@ -63,7 +63,7 @@ def mark_moved_by_ball(ball):
 
 @kernel
 def record_landing(ball, now):
-    """Record time, position and velocity of a shot's first contact. Writes landed and the landing fields."""
+    """Record time, position and velocity of a shot's first contact. Writes landing."""
     if ball['shot_active'] and not ball['landed'] and ball['phase'] == FLIGHT:
         ball['landed'] = 1
         ball['landing'] = now
@@ -73,9 +73,9 @@ def record_landing(ball, now):
 
 @kernel
 def end_shot(ball, number, now, kind, log):
-    """End the ball's shot and log it as `kind`, SHOT_ENDS or LOST. Writes shot_active, ended, over_time.
+    """End the ball's shot and log it as `kind`, SHOT_ENDS or LOST.
 
-    A ball that still moves is over time, and is stopped.
+    A ball that still moves is over time, and is stopped. Writes shot_active, ended, over_time, phase, motion.
     """
     ball['ended'] = now
     if moves(ball['phase']):
@@ -122,7 +122,7 @@ def is_finite(ball):
 def fail(ball, number, now, why, log):
     """Fail the shot of a ball that can't go on; it is put back to where it was struck.
 
-    Writes motion, phase, failed; logs the end.
+    Logs the end. Writes motion, phase, shot.
     """
     ball['failed'] = why
     ball['moved_by_ball'] = 0
@@ -153,7 +153,7 @@ def copy_result(ball, end):
 
 @entry
 def begin_shot(ball, now):
-    """Begin a shot with the ball's velocity and spin at `now`. Writes the shot's fields, end and ending."""
+    """Begin a shot with the ball's velocity and spin at `now`. Writes shot, end, ending."""
     ball['shot_active'] = 1
     ball['moved_by_ball'] = 0
     ball['struck'] = now
