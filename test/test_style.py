@@ -15,6 +15,11 @@ ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ('golf_sim_ros', 'test', 'tools', 'launch', 'benchmarks', 'docs', 'examples')
 SOURCES = [ROOT / 'setup.py', *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob('*.py')))]
 EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
+# What users call, the modules right in the folder and those of a World, may take more: each by its name.
+KERNELS = [path for path in sorted((ROOT / 'golf_sim_ros' / 'physics').glob('*/*.py'))
+           if not path.parent.name.startswith('world')]
+MOST_COMPLEX = 15  # cyclomatic complexity
+MOST_ARGUMENTS = 6
 PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
 
 
@@ -28,6 +33,28 @@ def test_flake8_finds_nothing():
     check = subprocess.run([sys.executable, '-m', 'flake8', *map(str, SOURCES + EXECUTABLES)],
                            cwd=ROOT, capture_output=True, text=True)
     assert check.returncode == 0, check.stdout + check.stderr
+
+
+def test_a_function_of_the_physics_is_of_moderate_complexity():
+    pytest.importorskip('mccabe')
+    check = subprocess.run([sys.executable, '-m', 'flake8', '--select', 'C901', '--max-complexity',
+                            str(MOST_COMPLEX), str(ROOT / 'golf_sim_ros' / 'physics')],
+                           cwd=ROOT, capture_output=True, text=True)
+    assert check.returncode == 0, check.stdout + check.stderr
+
+
+@pytest.mark.parametrize('path', KERNELS, ids=name)
+def test_a_function_of_the_engine_takes_few_arguments(path):
+    tree = ast.parse(path.read_text(encoding='utf-8'))
+    wrong = [f'{name(path)}:{node.lineno} {node.name}' for node in ast.walk(tree)
+             if isinstance(node, ast.FunctionDef) and count_of_arguments(node) > MOST_ARGUMENTS]
+    assert not wrong
+
+
+def count_of_arguments(function):
+    """How many arguments a function names, `self` as well."""
+    found = function.args
+    return len(found.posonlyargs + found.args + found.kwonlyargs)
 
 
 @pytest.mark.parametrize('path', SOURCES + EXECUTABLES, ids=name)
