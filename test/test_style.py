@@ -16,6 +16,9 @@ FOLDERS = ('golf_sim_ros', 'test', 'tools', 'launch', 'benchmarks', 'docs', 'exa
 SOURCES = [ROOT / 'setup.py', *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob('*.py')))]
 EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
 PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
+PHYSICS = ROOT / 'golf_sim_ros' / 'physics'
+OUTSIDE_PHYSICS = [path for path in SOURCES if PHYSICS not in path.parents]
+MOST_BRANCHES, MOST_PARAMETERS = 15, 6
 
 
 def name(path):
@@ -28,6 +31,29 @@ def test_flake8_finds_nothing():
     check = subprocess.run([sys.executable, '-m', 'flake8', *map(str, SOURCES + EXECUTABLES)],
                            cwd=ROOT, capture_output=True, text=True)
     assert check.returncode == 0, check.stdout + check.stderr
+
+
+def test_no_function_outside_the_physics_branches_often():
+    pytest.importorskip('flake8')
+    check = subprocess.run([sys.executable, '-m', 'flake8', '--select', 'C901', '--max-complexity',
+                            str(MOST_BRANCHES), *map(str, OUTSIDE_PHYSICS)],
+                           cwd=ROOT, capture_output=True, text=True)
+    assert check.returncode == 0, check.stdout + check.stderr
+
+
+@pytest.mark.parametrize('path', OUTSIDE_PHYSICS, ids=name)
+def test_no_function_outside_the_physics_has_many_parameters(path):
+    wrong = [f'{name(path)}:{node.lineno} {node.name}'
+             for node in ast.walk(ast.parse(path.read_text(encoding='utf-8')))
+             if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+             and len(parameters(node)) > MOST_PARAMETERS]
+    assert not wrong
+
+
+def parameters(node):
+    """Parameters of a function but `self` and `cls`."""
+    found = [arg.arg for arg in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)]
+    return [arg for arg in found if arg not in ('self', 'cls')]
 
 
 @pytest.mark.parametrize('path', SOURCES + EXECUTABLES, ids=name)
