@@ -204,7 +204,7 @@ def test_what_is_off_is_of_no_type_that_the_kernels_see(scene):
     assert not kinds & {'Drag', 'Magnus', 'SpinDecay'} & {type(r).__name__ for r in world._model.land.effects}
 
 
-def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_lays_no_piece():
+def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_plans_no_segment():
     flying, rolling, rolled, ends = run(evaluations)
     assert flying > 0 and rolled == rolling and ends == float('inf')
 
