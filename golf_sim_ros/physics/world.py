@@ -2,7 +2,7 @@
 """World: a course with balls on it, in time."""
 from functools import partial
 import re
-from math import inf, isfinite
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +13,7 @@ from .effects import Scene, choose
 from .engine.engines import PYTHON, Program, checked_engine, compiled_engine
 from .engine.event_loop import LOG_FULL, STAGES
 from .jit.build import Part
+from .live_parameters import LIVE, checked_live
 from .mechanics.vector import ZERO
 from .placement import NoPlace
 from .result import objection, three
@@ -24,9 +25,8 @@ from .state.events import new_log
 from .state.serialize import plain, restored
 from .trajectory.shot_record import NOT_FINITE, fail, begin_shot
 
-RESERVED = {'shot', 'wind', 'course', 'play', 'collisions', 'journal'}
+RESERVED = {'shot', *LIVE, 'course', 'play', 'collisions', 'journal'}
 PHASES = tuple(Phase)
-MOST_WIND = 100.0  # m/s
 PLACE_ANEW = ': place it anew, or reset'
 GONE_FOR = {HOLED: 'holed' + PLACE_ANEW, OUT: 'out of bounds' + PLACE_ANEW,
             WATER: 'in the water' + PLACE_ANEW}
@@ -78,7 +78,8 @@ class World:
         self._numbers = {name: number for number, name in enumerate(self.names)}
         self.time = 0.0
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
-        self._preset, self._wind, self._accuracy = preset(accuracy), checked_wind(wind), accuracy
+        self._preset, self._accuracy = preset(accuracy), accuracy
+        self._live = {'wind': checked_live('wind', wind)}
         self._labels = reporting.Labels(self.names, model_.material_names(course), course.hole)
         self._log, self._events, self._now = new_log(64 + 16 * len(self.names)), [], 0.0
         self.failures, self.last_failure = 0, ''  # of balls that could not go on: how many, and why
@@ -102,7 +103,7 @@ class World:
 
     def _choose(self):
         """Choose the effects, and the records of them for the engine."""
-        self._scene = Scene(self.course, len(self.names), self._wind)
+        self._scene = Scene(self.course, len(self.names), **self._live)
         self._chosen = choose(self._asked, self._scene)
         keeps_dormant = self._engine.keeps_dormant
         self._records = self._chosen.with_dormant(self._scene) if keeps_dormant else self._chosen.records
@@ -355,10 +356,25 @@ class World:
         ValueError
             Not finite, or over 100 m/s.
         """
-        wind = checked_wind(wind)
-        if wind == self._wind:
+        self.set_live('wind', wind)
+
+    @property
+    def live(self):
+        """Live parameters at present, by the effect's name."""
+        return dict(self._live)
+
+    def set_live(self, effect, value):
+        """Set the live parameter of an effect, by its name, from now on.
+
+        Raises
+        ------
+        ValueError
+            It has none, or this is no value for it.
+        """
+        value = checked_live(effect, value)
+        if value == self._live[effect]:
             return
-        self._wind = wind
+        self._live[effect] = value
         self._choose()
         self._model = self._model._replace(effects=model_.in_flight(self._records))
         self._begin_new_segments()
@@ -441,7 +457,7 @@ class World:
         """
         balls = {name: written(ball) for name, ball in zip(self.names, self._balls)}
         return {'time': self.time, 'clock': self._now, 'engine': self.engine, 'accuracy': self.accuracy,
-                'wind': list(self._wind), 'balls': balls}
+                **{effect: list(value) for effect, value in self._live.items()}, 'balls': balls}
 
     def restore(self, state):
         """Restore the `state` of a world on the same course, with the same effects, and go on from there.
@@ -455,7 +471,8 @@ class World:
         """
         if state['accuracy'] != self.accuracy:
             self.accuracy = state['accuracy']
-        self.set_wind(state['wind'])
+        for effect in LIVE:
+            self.set_live(effect, state[effect])
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
         self._forget_tree()
@@ -476,16 +493,6 @@ def checked_names(balls):
     if not names or len(set(names)) < len(names):
         raise ValueError(f'ball names {names} must be at least one and all different')
     return names
-
-
-def checked_wind(wind):
-    """Tuple of three floats of `wind`; ValueError where it is not finite or too strong."""
-    wind = tuple(map(float, wind))
-    if len(wind) != 3 or not all(map(isfinite, wind)):
-        raise ValueError(f'wind {wind} is not three finite numbers')
-    if sum(x * x for x in wind) > MOST_WIND * MOST_WIND:
-        raise ValueError(f'wind {wind} is over {MOST_WIND:g} m/s')
-    return wind
 
 
 def exercise(course, names, effects, accuracy):
