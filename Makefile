@@ -6,6 +6,8 @@
 # make bench   what is fast and what is not, against baselines of the same run; BENCH_ARGS=--quick for less
 # make fuzz    random scenes, malformed and extreme messages, broken files: what stops the sim; FUZZ_ARGS='--scenes 2000'
 #              and FUZZ_FILES_ARGS='--count 20000 --kinds courses' for longer
+# make docs    docs/ and the docstrings as HTML: build/docs/html/index.html; in an environment of its own, .venv_docs
+# make lint    flake8 and ruff, there, too
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #
 # Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
@@ -13,6 +15,7 @@
 
 PYTHON ?= python3
 VENV ?= .venv
+DOCS_VENV ?= .venv_docs
 DISTRO ?= jazzy
 PYTEST_ARGS ?=
 BENCH_ARGS ?=
@@ -23,7 +26,7 @@ FUZZ_FILES_ARGS ?=
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: play sim test hard fuzz bench environment clean
+.PHONY: play sim test hard fuzz bench docs lint environment docs_environment clean
 
 play: environment
 	@$(VENV)/bin/python tools/play.py
@@ -45,9 +48,24 @@ fuzz: environment
 bench: environment
 	@$(VENV)/bin/python benchmarks/bench.py $(BENCH_ARGS)
 
+docs: docs_environment
+	@$(DOCS_VENV)/bin/python tools/build_docs.py build/docs
+
+lint: docs_environment
+	@$(DOCS_VENV)/bin/python -m flake8
+	@$(DOCS_VENV)/bin/ruff check
+
+# Needs neither ROS nor numba. Made anew where setup.py is newer.
+docs_environment: $(DOCS_VENV)/made
+
+$(DOCS_VENV)/made: setup.py
+	@$(PYTHON) -m venv --clear $(DOCS_VENV)
+	@$(DOCS_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[docs,lint]'
+	@touch $@
+
 environment:
 	@command -v $(PYTHON) > /dev/null || { echo 'golf_sim_ros: $(PYTHON) is missing: Python 3.10 or newer is needed' >&2; exit 1; }
 	@$(PYTHON) tools/make_environment.py $(VENV) $(DISTRO)
 
 clean:
-	rm -rf $(VENV) build install log *.egg-info
+	rm -rf $(VENV) $(DOCS_VENV) build install log *.egg-info

@@ -36,7 +36,7 @@ def folders(top):
 
 setup(
     name=PACKAGE,
-    version='0.1.0',
+    version='0.2.0',
     description='Golf as a physics simulation on ROS 2',
     long_description=(HERE / 'README.md').read_text(encoding='utf-8'),
     long_description_content_type='text/markdown',
@@ -64,6 +64,8 @@ setup(
         'plot': ['matplotlib', 'rosbags>=0.10'],
         'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
+        'docs': ['sphinx>=8.2', 'myst-parser', 'sphinx-rtd-theme'],
+        'lint': ['flake8', 'ruff'],
         'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10',
                  'trimesh', 'rasterio', 'dask[distributed]'],
     },
