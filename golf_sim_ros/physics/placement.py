@@ -14,7 +14,7 @@ from .scene.course_record import Course
 from .state.ball import FAILED, HOLED, LAUNCH, REST
 
 APART = 0.5  # m between balls on the tee
-CLEAR = 2.2  # radii from centre to centre, of a ball that is dropped beside another
+BESIDE = 2.2  # radii from centre to centre, of a ball that is dropped beside another
 FARTHEST = 1e6  # m: the same limit as in course files
 FALL = 1e4  # m: how far down ground is searched
 # Fields of a ball that is taken up from where it lay.
@@ -52,7 +52,7 @@ def checked_start(position, velocity, spin):
 def tee_places(course, count):
     """Places x, y of so many balls side by side at the tee."""
     x, y = course.tee[:2]
-    apart = max(APART, CLEAR * course.ball.radius)
+    apart = max(APART, BESIDE * course.ball.radius)
     return [(x, y + apart * (i - 0.5 * (count - 1))) for i in range(count)]
 
 
@@ -180,5 +180,5 @@ def spots(place, radius):
     for ring in range(1, 20):
         for step in range(6 * ring):
             angle = step * pi / (3 * ring)
-            away = CLEAR * radius * ring
+            away = BESIDE * radius * ring
             yield x - away * cos(angle), y + away * sin(angle), z, 2.0 * radius
