@@ -16,6 +16,10 @@ FOLDERS = ('golf_sim_ros', 'test', 'tools', 'launch', 'benchmarks', 'docs', 'exa
 SOURCES = [ROOT / 'setup.py', *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob('*.py')))]
 EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
 PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
+PHYSICS = ROOT / 'golf_sim_ros' / 'physics'
+# What users call of the physics, its modules right in the folder, may take more parameters: each by its name.
+OF_FEW_PARAMETERS = [path for path in SOURCES if path.parent != PHYSICS]
+MOST_BRANCHES, MOST_PARAMETERS = 15, 6
 
 
 def name(path):
@@ -28,6 +32,29 @@ def test_flake8_finds_nothing():
     check = subprocess.run([sys.executable, '-m', 'flake8', *map(str, SOURCES + EXECUTABLES)],
                            cwd=ROOT, capture_output=True, text=True)
     assert check.returncode == 0, check.stdout + check.stderr
+
+
+def test_no_function_branches_often():
+    pytest.importorskip('flake8')
+    check = subprocess.run([sys.executable, '-m', 'flake8', '--select', 'C901', '--max-complexity',
+                            str(MOST_BRANCHES), *map(str, SOURCES)],
+                           cwd=ROOT, capture_output=True, text=True)
+    assert check.returncode == 0, check.stdout + check.stderr
+
+
+@pytest.mark.parametrize('path', OF_FEW_PARAMETERS, ids=name)
+def test_no_function_has_many_parameters(path):
+    wrong = [f'{name(path)}:{node.lineno} {node.name}'
+             for node in ast.walk(ast.parse(path.read_text(encoding='utf-8')))
+             if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+             and len(parameters(node)) > MOST_PARAMETERS]
+    assert not wrong
+
+
+def parameters(node):
+    """Parameters of a function but `self` and `cls`."""
+    found = [arg.arg for arg in (*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs)]
+    return [arg for arg in found if arg not in ('self', 'cls')]
 
 
 @pytest.mark.parametrize('path', SOURCES + EXECUTABLES, ids=name)

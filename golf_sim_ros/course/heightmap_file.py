@@ -82,7 +82,11 @@ def placed(grid, entry, name, notes):
             raise CourseError(f'lies at {x:.10g}, {y:.10g}: say where the course has its origin there, as '
                               f'with `subtract: [{x:.0f}, {y:.0f}]`')
     heights, where = (grid.heights - less_z) * height_unit, Places(origin, spacing)
-    heights = complete(heights, absent_of(grid, entry), grid, where, entry.get('fill', False), name, notes)
+    absent = absent_of(grid, entry)
+    if absent.any():
+        notes.append(f'{name}: {filling(grid, absent, where, entry.get("fill", False))}')
+        heights = filled(np.where(absent, np.nan, heights))
+    check_reach(heights, where)
     notes += [f'{name}: {note}' for note in jumps(heights, where)]
     return Heightmap(tuple(map(tuple, heights.tolist())), origin, spacing, entry['material'])
 
@@ -104,24 +108,24 @@ def absent_of(grid, entry):
     return ~np.isfinite(grid.heights) | grid.missing | np.isin(grid.heights, values)
 
 
-def complete(heights, absent, grid, where, fill, name, notes):
-    """`heights`, if none is `absent`, or filled; CourseError where one is missing or out of reach."""
+def filling(grid, absent, where, fill):
+    """A note of which heights of a grid are `absent` and filled; CourseError where they may not be."""
     if absent.all():
         raise CourseError('holds no heights: all stand for no data')
-    if absent.any():
-        place = tuple(np.argwhere(absent)[0])
-        of_all = f'{absent.sum()} of {absent.size}'
-        if not fill:
-            raise CourseError(f'height {list(map(int, place))} is {grid.heights[place]:g}, {where(*place)}: '
-                              f'{of_all} stand for no data; `fill: true` fills them from those around')
-        notes.append(f'{name}: {of_all} heights stood for no data, the first {where(*place)}, and were '
-                     'filled from those around')
-        heights = filled(np.where(absent, np.nan, heights))
+    place = tuple(np.argwhere(absent)[0])
+    of_all = f'{absent.sum()} of {absent.size}'
+    if not fill:
+        raise CourseError(f'height {list(map(int, place))} is {grid.heights[place]:g}, {where(*place)}: '
+                          f'{of_all} stand for no data; `fill: true` fills them from those around')
+    return f'{of_all} heights stood for no data, the first {where(*place)}, and were filled from those around'
+
+
+def check_reach(heights, where):
+    """Check that no height is out of reach or not a number; CourseError where one is."""
     if not (np.abs(heights) <= FAR).all():
         place = tuple(np.argwhere(~(np.abs(heights) <= FAR))[0])
         raise CourseError(f'height {list(map(int, place))} is {heights[place]}, {where(*place)}, and must be '
                           f'a number from {-FAR:g} to {FAR:g}')
-    return heights
 
 
 def jumps(heights, where):

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..physics import Rejected, Result
 from ..physics.engine.orientation import UPRIGHT
+from ..physics.live_parameters import checked_live
 from ..recording.journal import Journal
 from ..recording.json_format import state_text
 from . import log_lines
@@ -51,7 +52,7 @@ class Game:
         self.steps = self.shots = 0  # shots: strikes received
         self.numbers = {}  # of strikes under way, by those of the world, which counts only what it accepts
         self.inputs = []
-        self.wind = self.blowing = (0.0, 0.0, 0.0)
+        self.live = world.live  # live parameters of effects, as last received
         self.paused = self.stood_still = False  # now, and at any time since the last diagnostics
         self.failures = 0  # of balls that could not be simulated further, as last published
         self.began, self.spent = perf_counter(), process_time()  # when the last advance began
@@ -128,15 +129,19 @@ class Game:
 
     def apply(self):
         """Apply the inputs that arrived, in order; the wind first, so that a shot starts in it."""
-        if self.wind != self.blowing:
-            self.world.set_wind(self.wind)
-            self.blowing = self.wind
-            if self.world.moving:
-                self.journal.note('wind', self.ticks, wind=self.wind)
+        for effect, value in self.live.items():
+            if value != self.world.live[effect]:
+                self.world.set_live(effect, value)
+                if self.world.moving:
+                    self.journal.note(effect, self.ticks, **{effect: value})
         inputs, self.inputs = self.inputs, []
         for act in inputs:
             act()
             self.notify_events(self.world.happened())
+
+    def set_live(self, effect, value):
+        """Take the newest live parameter of an effect, such as wind, which the next step applies."""
+        self.live[effect] = checked_live(effect, value)
 
     def strike(self, name, velocity, spin):
         """Strike a ball; a rejected shot has its result at once."""
@@ -205,7 +210,7 @@ class Game:
         scene_due = self.scene_due()
         self.notify_balls(self.all_due)
         if scene_due:
-            self.listener.scene(self.blowing)
+            self.listener.scene(self.world.live['wind'])
         if self.course_due:
             self.listener.course()
         self.all_due = self.course_due = False

@@ -12,7 +12,6 @@ from std_srvs.srv import SetBool, Trigger
 
 from ..course import load_course
 from ..physics import World
-from ..physics.world import checked_wind
 from .conversions import triple
 from .game import Game
 from .lifecycle import run
@@ -134,7 +133,7 @@ class SimNode(Node):
         if not self.in_frame('wind', message):
             return
         try:
-            self.game.wind = checked_wind(triple(message.vector))
+            self.game.set_live('wind', triple(message.vector))
         except ValueError as error:
             self.rejected_inputs.warn('wind', str(error))
             return

@@ -62,7 +62,7 @@ def played(batch, strikes, progress=None):
     scene = world._model, world._balls, batch.gusts, world._workspace, world._log
     found = [ends(play, scene, part)
              for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
-    return summary(np.concatenate(found), batch.course.hole, world._materials)
+    return summary(np.concatenate(found), batch.course.hole, world._labels.materials)
 
 
 def ends(play, scene, strikes):

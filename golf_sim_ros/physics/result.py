@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Reports of a world: collisions, and a result for every shot."""
+"""What is told of a play: collisions, and a result for every shot; and why a strike is rejected."""
 from math import hypot, isfinite
 from typing import NamedTuple, Optional
 

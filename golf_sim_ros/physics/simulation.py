@@ -9,10 +9,11 @@ import numpy as np
 from .batch import Batch, batch_engine, played, progress_bar
 from .engine.engines import checked_engine
 from .geometry import surfaces
+from .live_parameters import checked_wind
 from .mechanics.vector import ZERO
 from .result import Result, objection, suspects
 from .scene import kernel_model
-from .world import World, checked_wind
+from .world import World
 
 
 class Play(NamedTuple):

@@ -10,12 +10,13 @@ import numpy as np
 
 from ..course import CourseError, load_course
 from ..physics import Result, World
+from ..physics.live_parameters import LIVE
 from .bag import BagError
 from .journal import standing
 from .json_format import DIGITS, collision_text, plain, result_text
 
-INPUTS = ('strike', 'place', 'reset', 'wind', 'accuracy')
-STATE = ('time', 'clock', 'accuracy', 'wind', 'balls')
+INPUTS = ('strike', 'place', 'reset', 'accuracy', *LIVE)
+STATE = ('time', 'clock', 'accuracy', 'balls', *LIVE)
 LONGEST = 1000.0  # s; every shot is over long before
 RUNS = 5  # of which the fastest counts
 MANY = {'position': 'positions', 'velocity': 'velocities', 'spin': 'spins'}
@@ -165,8 +166,8 @@ def applied(world, entry):
         world.strike(entry['ball'], entry['velocity'], entry['spin'])
     elif kind == 'place':
         world.place(entry['ball'], entry['position'])
-    elif kind == 'wind':
-        world.set_wind(entry['wind'])
+    elif kind in LIVE:
+        world.set_live(kind, entry[kind])
     elif kind == 'accuracy':
         world.accuracy = entry['accuracy']
     return world.reset() if kind == 'reset' else []

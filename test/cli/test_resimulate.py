@@ -76,13 +76,13 @@ def told_start(told):
     return opened(told[0][3].data)['start']
 
 
-@pytest.mark.parametrize('topic, old, new, field', [
-    ('collisions', '"spin_after": [', '"spin_after": [1e-9, ', 'spin_after of a collision'),
-    ('shot/result', '"apex": ', '"apex": 1', 'apex of the result'),
-    ('shot/result', '"lie": "', '"lie": "x', 'lie of the result'),
+@pytest.mark.parametrize('topic, old_and_new, field', [
+    ('collisions', ('"spin_after": [', '"spin_after": [1e-9, '), 'spin_after of a collision'),
+    ('shot/result', ('"apex": ', '"apex": 1'), 'apex of the result'),
+    ('shot/result', ('"lie": "', '"lie": "x'), 'lie of the result'),
 ])
-def test_a_changed_collision_or_result_is_found(told, tmp_path, capsys, topic, old, new, field):
-    path = bag(tmp_path / 'bag', changed(told, replaced(old, new), topic))
+def test_a_changed_collision_or_result_is_found(told, tmp_path, capsys, topic, old_and_new, field):
+    path = bag(tmp_path / 'bag', changed(told, replaced(*old_and_new), topic))
     assert main([str(path)]) == 1
     captured = capsys.readouterr()
     assert f'in {field}: ' in captured.out

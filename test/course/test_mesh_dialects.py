@@ -151,17 +151,17 @@ PLY_HEAD = ('ply\nformat {order} 1.0\ncomment a comment\nobj_info x\nelement ver
             'property list {size} {whole} {name}\nproperty uchar flags\nend_header\n')
 
 
-@pytest.mark.parametrize('order, end, real, size, whole, name',
-                         [('ascii', '', 'float', 'uchar', 'int', 'vertex_indices'),
-                          ('ascii', '', 'double', 'uint8', 'uint', 'vertex_index'),
-                          ('binary_little_endian', '<', 'float', 'uchar', 'int', 'vertex_indices'),
-                          ('binary_big_endian', '>', 'float64', 'uint', 'ushort', 'vertex_index'),
-                          ('binary_little_endian', '<', 'float32', 'int', 'uint32', 'vertex_indices')])
+@pytest.mark.parametrize('numbers, face', [
+    (('ascii', '', 'float'), ('uchar', 'int', 'vertex_indices')),
+    (('ascii', '', 'double'), ('uint8', 'uint', 'vertex_index')),
+    (('binary_little_endian', '<', 'float'), ('uchar', 'int', 'vertex_indices')),
+    (('binary_big_endian', '>', 'float64'), ('uint', 'ushort', 'vertex_index')),
+    (('binary_little_endian', '<', 'float32'), ('int', 'uint32', 'vertex_indices'))])
 @pytest.mark.parametrize('lines', ['\n', '\r\n'])
-def test_a_concave_face_of_64_m2_is_one_in_every_dialect_of_ply(read, order, end, real, size, whole, name,
-                                                                lines):
-    head = PLY_HEAD.format(order=order, real=real, size=size, whole=whole, name=name).replace('\n',
-                                                                                              lines).encode()
+def test_a_concave_face_of_64_m2_is_one_in_every_dialect_of_ply(read, numbers, face, lines):
+    (order, end, real), (size, whole, name) = numbers, face
+    head = PLY_HEAD.format(order=order, real=real, size=size, whole=whole, name=name)
+    head = head.replace('\n', lines).encode()
     letters = {
         'float': 'f', 'float32': 'f', 'double': 'd', 'float64': 'd', 'uchar': 'B', 'uint8': 'B', 'int': 'i',
         'uint': 'I', 'uint32': 'I', 'ushort': 'H'

@@ -61,13 +61,13 @@ def geotiff(path, heights=GREEN, none=None, crs='EPSG:32633', cell=(CELL, CELL),
             file.units = (units, ) * bands
 
 
-def esri(path, heights=GREEN, corner=(EAST, NORTH), cell=CELL, none='-9999', kind='corner', end='\n'):
+def esri(path, heights=GREEN, corner=(EAST, NORTH), cell=CELL, kind='corner', end='\n'):
     """An ESRI ASCII grid, rows from north."""
     off = 0.5 * cell if kind == 'corner' else 0.0
     head = [
         f'ncols         {len(heights[0])}', f'nrows {len(heights)}', f'xll{kind} {corner[0] - off!r}',
-        f'YLL{kind.upper()}\t{corner[1] - off!r}', f'cellsize {cell!r}', f'NODATA_value  {none}'
-    ][:6 if none else 5]
+        f'YLL{kind.upper()}\t{corner[1] - off!r}', f'cellsize {cell!r}', 'NODATA_value  -9999'
+    ]
     path.write_text(end.join([*head, *(' '.join(map(repr, row)) for row in heights[::-1].tolist())]) + end)
 
 

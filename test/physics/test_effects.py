@@ -204,7 +204,7 @@ def test_what_is_off_is_of_no_type_that_the_kernels_see(scene):
     assert not kinds & {'Drag', 'Magnus', 'SpinDecay'} & {type(r).__name__ for r in world._model.land.effects}
 
 
-def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_lays_no_piece():
+def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_plans_no_segment():
     flying, rolling, rolled, ends = run(evaluations)
     assert flying > 0 and rolled == rolling and ends == float('inf')
 
@@ -276,3 +276,13 @@ def ends_with_down_draught():
     protocol.acceleration.register(DownDraught)(lambda effect, flow: (0.0, 0.0, -effect.push))
     register_effect('down_draught', lambda scene: DownDraught(), lambda scene: '', 'Pushes down.')
     return [end(SCENES['calm turf'], ('gravity', *more)) for more in ((), ('down_draught',))]
+
+
+def test_a_live_parameter_is_set_by_the_name_of_its_effect():
+    by_name, as_wind = World(level(TURF)), World(level(TURF))
+    by_name.set_live('wind', (3, 4, 0))
+    as_wind.set_wind((3, 4, 0))
+    assert by_name.live == as_wind.live == {'wind': (3.0, 4.0, 0.0)}
+    assert by_name.state() == as_wind.state() and by_name.effects_on == as_wind.effects_on
+    with pytest.raises(ValueError, match="'drag' has nothing that can be set; those that do: wind"):
+        by_name.set_live('drag', (1.0,))

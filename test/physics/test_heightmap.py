@@ -120,7 +120,7 @@ def test_a_ball_in_a_bowl_swings_at_5_7_of_a_sliding_one():
     assert period == pytest.approx(2 * pi / sqrt(5 * G / (7 * (curve - RADIUS))), rel=5e-3)
 
 
-def test_a_rolling_ball_has_the_spin_of_rolling_at_every_instant_and_not_only_where_a_piece_ends():
+def test_a_rolling_ball_has_the_spin_of_rolling_at_every_instant_and_not_only_where_a_segment_ends():
     land = surface(lambda x, y: 0.05 * np.sin(0.7 * x) + 0.04 * np.cos(0.5 * y))
     world = World(Course((land,)), effects=GRAVITY)
     world.place('ball', (-5.0, 1.0))

@@ -209,7 +209,7 @@ def test_a_place_out_of_this_world_is_refused(place):
 
 @pytest.mark.parametrize('accuracy', ['standard', 'reference'])
 @pytest.mark.parametrize('place', [(1e6, 0.0), (-1e6, 1e6), (645447.3692832283, 898691.9485607379)])
-def test_a_weak_shot_far_away_comes_to_rest_in_few_pieces(place, accuracy):
+def test_a_weak_shot_far_away_comes_to_rest_in_few_segments(place, accuracy):
     world = World(level(HARD), accuracy=accuracy)
     world.place('ball', place)
     world.strike('ball', (-1.2e-4, 9e-4, -4e-4))

@@ -24,7 +24,8 @@ from ..scene import kernel_model as model_
 from ..scene.kernel_model import Limits
 from ..scene.presets import Preset
 from ..simulation import checked_gusts, checked_strikes
-from ..state.ball import FLIGHT, REST
+from ..state.ball import FLIGHT
+from ..state.transitions import come_to_rest, take_off
 from ..trajectory.shot_record import record_landing, begin_shot
 from ..world import World
 
@@ -89,7 +90,7 @@ def _play(model, ball, strikes, absorbs):
         store(one['velocity'], load(strikes[i, 0:3]))
         store(one['spin'], load(strikes[i, 3:6]))
         begin_shot(one, 0.0)
-        one['phase'] = FLIGHT
+        take_off(one)
         time = 0.0
         while one['phase'] == FLIGHT and time < LONGEST_REPORT_SHOT:
             time += REPORT_STEP
@@ -111,7 +112,7 @@ def move(model, ball):
 
 @kernel
 def push_out(land, ball, time, absorbs):
-    """Push the ball out of what it is in, and let it bounce. Writes motion and phase."""
+    """Push the ball out of what it is in, and let it bounce. Writes motion, phase, landing."""
     low, high = surfaces.around(load(ball['position']), land.ball.radius)
     part = surfaces.next_part(land.ground, 0, low, high)
     while part >= 0:
@@ -124,7 +125,7 @@ def push_out(land, ball, time, absorbs):
                 number = surfaces.material_of(land.ground, part, x)
                 rebound(ball, land.materials[number], absorbs[number], normal)
                 if length(load(ball['velocity'])) < STOPPED:
-                    ball['phase'] = REST
+                    come_to_rest(ball)
         part = surfaces.next_part(land.ground, part + 1, low, high)
 
 

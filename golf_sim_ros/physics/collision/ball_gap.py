@@ -145,10 +145,10 @@ def _stand_in_the_way(work, balls, i, radius, now):
 
 @shared
 def interrupt_segments_at(work, balls, i, radius, now):
-    """End the segments of other balls that hit ball `i`, which rests now. Writes end, ending, target.
+    """End the segments of other balls that hit ball `i`, which rests now.
 
     They were planned while it still moved, and tested against it only up to the end of its segment. Writes
-    segment_ends, too.
+    end, ending, target, segment_ends.
     """
     ball = balls[i]
     place = load(ball['position'])

@@ -38,12 +38,12 @@ class SingleBallWorkspace(NamedTuple):
 
 @generic
 def prepare_broad_phase(work, balls, radius):
-    """Prepare the broad phase for a call of the engine. Writes the tree, count."""
+    """Prepare the broad phase for a call of the engine. Writes tree."""
 
 
 @generic
 def update_tree(work, balls, i, radius):
-    """Update the broad phase for ball `i`'s new segment. Writes the tree."""
+    """Update the broad phase for ball `i`'s new segment. Writes tree."""
 
 
 @generic
@@ -54,30 +54,42 @@ def first_ball_contact(work, balls, i, radius, now):
 
 @generic
 def interrupt_segments(work, balls, i, radius, now):
-    """End the segments of moving balls where they hit ball `i`, which rests from now on. Writes segments."""
+    """End the segments of moving balls where they hit ball `i`, which rests from now on.
+
+    Writes end, ending, target, segment_ends.
+    """
 
 
 @generic
 def collect_ball_contacts(work, land, balls, i, now):
-    """Add the contacts of ball `i` with other balls, which become involved. Writes contacts, involved."""
+    """Add the contacts of ball `i` with other balls, which become involved, at the present.
+
+    Writes contacts, involved, motion, end, ending, apex.
+    """
 
 
 @generic
 def resolve_ball_impact(work, land, balls, i, now, log):
-    """Resolve the impact of ball `i` with its target and all that touches. Writes motion; logs impacts."""
+    """Resolve the impact of ball `i` with its target and all that touches, and log it.
+
+    Writes ball, work.
+    """
 
 
 @generic
 def step_together(work, land, balls, i, now):
-    """Whether ball `i` is time-stepped with others; solves their step if one is due. Writes motion."""
+    """Whether ball `i` is time-stepped with others; solves their step if one is due. Writes ball, work."""
     return False
 
 
 @generic
 def wake(work, balls, radius, now):
-    """Wake sleepers that touch involved balls; they wake others as they move. Writes involved, phase."""
+    """Wake sleepers that touch involved balls; they wake others as they move.
+
+    Writes involved, phase, step, pile, moved_by_ball, struck_at.
+    """
 
 
 @generic
 def log_ball_impacts(work, balls, now, log):
-    """Log the impacts of balls with balls among the contacts. Writes the log."""
+    """Log the impacts of balls with balls among the contacts."""

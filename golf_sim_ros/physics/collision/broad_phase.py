@@ -49,7 +49,10 @@ def segment_box(ball, radius, room):
 
 @kernel
 def write_leaf(ball, node, radius):
-    """Write the swept box of the ball's segment into its leaf; a fat one if it is time-stepped."""
+    """Put the swept box of the ball's segment into its leaf, a fat one if it is time-stepped.
+
+    Writes nodes.
+    """
     low, high = segment_box(ball, radius, LEAF_MARGIN if ball['time_stepping'] == STEPPED else 0.0)
     store(node['low'], low)
     store(node['high'], high)
@@ -71,7 +74,7 @@ def leaf_serves(ball, node, radius):
 
 @kernel
 def refit(work, i):
-    """Write the box of node `i` around those of its children."""
+    """Put the box of node `i` around those of its children. Writes nodes."""
     node = work.nodes[i]
     one = work.nodes[i + 1]
     other = work.nodes[one['skip']]
@@ -113,7 +116,7 @@ def rebuild(work, balls, radius):
 
 @kernel
 def set_node(node, parent, first, count):
-    """Write a node's parent and its range of balls."""
+    """Set a node's parent and its range of balls. Writes nodes."""
     node['parent'] = parent
     node['first'] = first
     node['count'] = count
@@ -162,7 +165,7 @@ def _note(work, balls, i, radius):
 
 @shared
 def update_leaf(work, balls, i, radius):
-    """Update the tree for ball `i`'s new segment. Writes nodes, or all of the tree if it is rebuilt."""
+    """Update the tree for ball `i`'s new segment. Writes tree."""
     # A pile moves so little that most of its segments change nothing in the tree.
     leaf = work.leaves[i]
     if leaf_serves(balls[i], work.nodes[leaf], radius):

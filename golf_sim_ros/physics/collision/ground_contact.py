@@ -30,6 +30,7 @@ MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
 LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner counts as having left it
 NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
+OPEN, CLEAR, HIT = range(3)  # of a gap of zero: what comes next is open, it is clear for a while, or hit
 
 
 @kernel
@@ -91,13 +92,15 @@ def separation_time(ground, part, ball, radius, until):
 
 
 @kernel
-def penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, hollow):
+def penetration_exit_time(ground, part, ball, radius, when, facing):
     """Safe time [s] for which a ball in a cut of `part`, or behind a one-sided sheet, has not left it yet.
 
     There the gap is negative, and no impact. Along a straight line a convex gap stays below its chord, and
     the path strays from that line by at most A s^2 / 2. A cut reaches up to its outline, however near to the
-    plane the ball moves.
+    plane the ball moves. `when` and `facing` are as in `touch`.
     """
+    time, until = when
+    gap, _, bend, hollow = facing
     place = position(ball, time)
     way = velocity(ball, time)
     least = max(-gap, 1e-6) / (length(way) + bend * until + 1e-3)
@@ -110,6 +113,28 @@ def penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, ho
     left = until - time
     distance, _ = surfaces.nearest(ground, part, add_scaled(place, left, way))
     return max(least, advancement_bound(-gap, (gap - distance + radius) / left, bend))
+
+
+@kernel
+def touch(ground, part, ball, radius, when, facing):
+    """Tell what a gap to `part` of zero comes to: OPEN, CLEAR until a later time, or HIT; that time, or now.
+
+    `when`: the time of it, and that up to which it is asked; `facing`: the gap, its rate, by how much that
+    falls a second, and the curvature of hollows.
+    """
+    time, until = when
+    rate = facing[1]
+    if not surfaces.touchable(ground, part, position(ball, time)):
+        return time + penetration_exit_time(ground, part, ball, radius, when, facing), CLEAR
+    # An edge's place is exact to FLUSH, so its normal to FLUSH over the radius: a rate within that may be of
+    # either sign, and `separation_time` tells which.
+    grazing = TANGENTIAL + FLUSH / radius * length(velocity(ball, time))
+    if rate < -grazing or time > 0.0 and rate <= 0.0:
+        return time, HIT
+    if time == 0.0 and rate <= TANGENTIAL:
+        time = separation_time(ground, part, ball, radius, until)
+        return time, HIT if time == 0.0 else CLEAR
+    return time, OPEN
 
 
 @kernel
@@ -139,20 +164,10 @@ def time_of_impact(ground, part, ball, radius, begin, until):
             gap = distance - radius
             rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
-            if not surfaces.touchable(ground, part, position(ball, time)):
-                time += penetration_exit_time(ground, part, ball, radius, time, until, gap, bend, hollow)
-                if time >= until:
-                    return until, False
-                continue
-            # An edge's place is exact to FLUSH, so its normal to FLUSH over the radius: a rate within that
-            # may be of either sign, and `separation_time` tells which.
-            grazing = TANGENTIAL + FLUSH / radius * length(velocity(ball, time))
-            if rate < -grazing or time > 0.0 and rate <= 0.0:
+            time, what = touch(ground, part, ball, radius, (time, until), (gap, rate, bend, hollow))
+            if what == HIT:
                 return time, True
-            if time == 0.0 and rate <= TANGENTIAL:
-                time = separation_time(ground, part, ball, radius, until)
-                if time == 0.0:
-                    return 0.0, True
+            if what == CLEAR:
                 if time >= until:
                     return until, False
                 continue
@@ -194,7 +209,7 @@ def first_ground_contact(ground, ball, radius, until, on):
         if is_long(low, high, SHORT_BOX * radius) and has_many_parts(ground, low, high):
             stretch = 0.5 * (end - begin)
             continue
-        best, who, hit = first_in_box(ground, ball, radius, begin, end, low, high, on)
+        best, who, hit = first_in_box(ground, ball, radius, (begin, end), (low, high), on)
         if hit or best < end:
             return best, who, hit
         begin = end
@@ -216,16 +231,20 @@ def has_many_parts(ground, low, high):
 
 
 @kernel
-def first_in_box(ground, ball, radius, begin, end, low, high, on):
-    """`first_ground_contact` from `begin` to `end`, with parts that overlap the box from `low` to `high`."""
+def first_in_box(ground, ball, radius, stretch, box, on):
+    """`first_ground_contact` over a `stretch` of time, begin and end, with parts that overlap the `box`.
+
+    Writes segments_spent.
+    """
+    begin, end = stretch
+    low, high = box
     best = end
     who = NO_PART
     hit = False
-    foot = add_scaled(load(ball['position']), -radius, load(ball['normal']))
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         ball['segments_spent'] += LOOK
-        if not is_ignored(ground, part, ball, radius, foot, best, on):
+        if not is_ignored(ground, part, ball, radius, best, on):
             time, touches = time_of_impact(ground, part, ball, radius, begin, best)
             # Impacts that turn out to be seams, or the edge that the ball follows, are dropped.
             if touches and on == ON_FLAT:
@@ -247,9 +266,10 @@ def first_in_box(ground, ball, radius, begin, end, low, high, on):
 
 
 @kernel
-def is_ignored(ground, part, ball, radius, foot, until, on):
+def is_ignored(ground, part, ball, radius, until, on):
     """Whether `part` is no obstacle, since the ball is in lasting contact with it: `on`."""
     if on == ON_FLAT:
+        foot = add_scaled(load(ball['position']), -radius, load(ball['normal']))
         return surfaces.in_plane(ground, part, foot, load(ball['normal']))
     if on == WEDGED:
         return holds_wedged(ground, part, ball, radius)

@@ -5,7 +5,8 @@ from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
 from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, unit, load
-from ..state.ball import REST, ROLL, SLIDE
+from ..state.ball import ROLL, SLIDE
+from ..state.transitions import begin_rolling, begin_sliding, come_to_rest
 from ..trajectory.equations_of_motion import LEAST_SPEED, rolling_deceleration, material_under, rolling_needs
 
 
@@ -61,6 +62,13 @@ def heading(land, ball):
     return unit(driven, ZERO)
 
 
+@kernel
+def touch_down(land, ball, now):
+    """Let the ball go on along its support, where it slides at first. Writes phase, velocity and spin."""
+    begin_sliding(ball)
+    choose_contact_mode(land, ball, now)
+
+
 @shared
 def choose_contact_mode(land, ball, now):
     """Choose whether a ball in contact slides, rolls, pivots or rests. Writes phase, velocity and spin.
@@ -79,9 +87,9 @@ def choose_contact_mode(land, ball, now):
     store(ball['velocity'], v)
     sliding = slip(v, load(ball['spin']), normal, land.ball.radius)
     if not grips or ball['phase'] != ROLL and length(sliding) > LEAST_SPEED:
-        ball['phase'] = SLIDE
+        begin_sliding(ball)
         return
-    ball['phase'] = ROLL
+    begin_rolling(ball)
     holds = length(downhill) / (1.0 + k) <= rolling_deceleration(material, press, needed)
     # Micro-bounces may still drive it: the air acts on them, and nothing resists.
     if length(v) <= LEAST_SPEED and holds and not in_micro_bounces(ball, now):
@@ -91,5 +99,5 @@ def choose_contact_mode(land, ball, now):
             turning = 0.0
         # Without pivot friction a spinning top would never rest: its spin counts no more.
         if material['pivot_friction'] == 0.0 or turning == 0.0:
-            ball['phase'] = REST
+            come_to_rest(ball)
     store(ball['spin'], add_scaled(scale(1.0 / land.ball.radius, cross(normal, v)), turning, normal))

@@ -15,7 +15,8 @@ from ..integrators import step
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
 from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, sub, load
-from ..state.ball import FLIGHT, ROLL, SLIDE, moves
+from ..state.ball import ROLL, SLIDE, moves
+from ..state.transitions import begin_rolling, begin_sliding, take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED, contact_rates, material_under, unwinding
 from ..trajectory.segment import fit_segment, position
 from .contact_state import in_micro_bounces, choose_contact_mode, remove_slip
@@ -39,7 +40,8 @@ SLIP_TIME = 1e-8  # s: or below what friction takes in this time, which is longe
 def curved_segment(model, ball, now):
     """Plan a step along ground that is not flat, or lift off where nothing presses.
 
-    Writes the curve, step, and in small ways motion and phase; see `snap_small_motion`.
+    Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in small ways
+    only: see `snap_small_motion`.
     """
     land = model.land
     place = load(ball['position'])
@@ -48,12 +50,11 @@ def curved_segment(model, ball, now):
     # The air is asked only where the weight does not hold the ball: see `press_with_air`.
     holding = press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
     if holding <= 0.0:
-        ball['phase'] = FLIGHT
-        ball['step'] = 0.0
+        take_off(ball)
         return
     grips = needed <= material_under(land, ball)['static_friction'] * press
     if ball['phase'] == ROLL and not grips:
-        ball['phase'] = SLIDE
+        begin_sliding(ball)
     snap_small_motion(land, ball, force, press, grips, now)
     if not moves(ball['phase']):
         return
@@ -136,7 +137,7 @@ def snap_small_motion(land, ball, force, press, grips, now):
         u = slip(v, load(ball['spin']), normal, r)
         if grips and length(u) <= slip_limit(land, press):
             remove_slip(land, ball)
-            ball['phase'] = ROLL
+            begin_rolling(ball)
         return
     slowing = -dot(force, v)
     if length(v) <= LEAST_SPEED or slowing <= 0.0 or material_under(land, ball)['rolling_resistance'] == 0.0:
@@ -228,10 +229,10 @@ def gained(land, ball):
 
 @shared
 def project_to_ground(land, ball):
-    """Press at the segment's end, which is projected onto the ground and its tangent plane. Writes the curve.
+    """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
     The position is not projected after the shortest of steps: its rounding error far from the origin,
-    5e-14 m, over a nanosecond is speed.
+    5e-14 m, over a nanosecond is speed. Writes curve.
     """
     r = land.ball.radius
     x0 = load(ball['position'])

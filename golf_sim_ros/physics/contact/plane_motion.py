@@ -29,7 +29,7 @@ RELATIVE_ROUNDING = 1e-15  # or than this share of its distance from the origin
 def plane_segment(land, ball, now):
     """Plan a segment of sliding or rolling on a plane, up to a stop or as far as a Bezier curve is exact.
 
-    Writes the curve, span and ending.
+    Writes curve, ending.
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
@@ -68,7 +68,7 @@ def plane_segment(land, ball, now):
     x = ball['position']
     rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
     while True:
-        fit_glide(land, ball, motion, coast, end, turning, unwinding)
+        fit_glide(land, ball, motion, coast, end, (turning, unwinding))
         middle = coulomb_deceleration.half_way(motion, end)
         allowed = max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding)
         if not glide_error(ball, motion, coast, middle) > allowed:
@@ -105,8 +105,12 @@ def glide_error(ball, motion, coast, q):
 
 
 @kernel
-def fit_glide(land, ball, motion, coast, q, turning, unwinding):
-    """Fit the segment to the closed form up to the parameter `q`. Writes the curve and span."""
+def fit_glide(land, ball, motion, coast, q, pivot):
+    """Fit the segment to the closed form up to the parameter `q`. Writes curve.
+
+    `pivot` is the spin about the normal, and its deceleration.
+    """
+    turning, unwinding = pivot
     normal = load(ball['normal'])
     r = land.ball.radius
     time, way, v1, u1 = glide_at(motion, coast, q)

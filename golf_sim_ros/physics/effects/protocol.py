@@ -101,4 +101,4 @@ def contact_normal(effect, normal, velocity, softness):
 
 @generic
 def set_wind(effect, wind):
-    """Set the `wind` [m/s at 10 m] of an `effect` that holds it. Writes into its record."""
+    """Set the `wind` [m/s at 10 m] that is in the record of an `effect`, if it holds any."""

@@ -15,15 +15,17 @@ from ..geometry import surfaces
 from ..jit import borrowed, cycles, entry, kernel, shared
 from ..mechanics.vector import ZERO, store, unit, load
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws of ball on ball)
+from ..response.collision_log import log_out_of_bounds
 from ..response.contact_set import clear_set, add_to_set
 from ..response.ground_impact import cross_border, resolve_ground_impact
-from ..response.water_impact import sink, leave_water, has_ended_in_water, resolve_water_impact
+from ..response.water_impact import leave_water, has_ended_in_water, resolve_water_impact
 from ..response.wedged_ball import step_wedged, is_wedged
-from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, HOLED, LAUNCH,
+from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, LAUNCH,
                           BALL_IMPACT, OUT, REST, SLIP_STOPS, WATER_ENTRY, STEP_END, TIME_LIMIT, WATER, moves)
 from ..state.events import LOST, SHOT_ENDS
+from ..state.transitions import hole_out, leave_bounds, sink
 from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, check_segment, is_finite, copy_result,
-                                      update_apex, begin_shot, log_out_of_bounds)
+                                      update_apex, begin_shot)
 from .planner import (LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_next_segment, read_segment,
                       stop_slip)
 
@@ -45,7 +47,7 @@ def advance(model, balls, until, work, log):
 
 @shared
 def run_events(model, balls, until, work, log):
-    """`advance`, with borrowed records."""
+    """`advance`, with borrowed records. Writes balls, work, log."""
     for i in range(len(balls)):
         work.segment_ends[i] = balls[i]['end']
     ball_interactions.prepare_broad_phase(work, balls, model.land.ball.radius)
@@ -77,7 +79,7 @@ def run_events(model, balls, until, work, log):
 
 @kernel
 def resolve(model, balls, i, work, log):
-    """Bring ball `i` to the end of its segment and resolve the event there. Writes motion, phase, contact.
+    """Bring ball `i` to the end of its segment and resolve the event there. Writes ball, work.
 
     Other balls that this moves become involved. Impacts are logged.
     """
@@ -123,18 +125,21 @@ def resolve(model, balls, i, work, log):
 
 @kernel
 def end_if_over(model, ball, number, now, log):
-    """End the shot of a ball that has stopped, is lost, or is over time. Writes phase, shot; logs it."""
+    """End the shot of a ball that has stopped, is lost, or is over time. Logs it.
+
+    Writes motion, phase, shot.
+    """
     if not is_finite(ball):
         fail(ball, number, now, NOT_FINITE, log)
     before = ball['phase']
     if moves(before) and is_below_ground(model.land.ground, ball, model.land.ball.radius):
-        ball['phase'] = OUT
+        leave_bounds(ball)
     elif has_ended_in_water(model.land, ball):
         sink(ball)
     elif before == REST and is_in_hole(model, ball):  # no speed of capture: it is holed once it rests there
-        ball['phase'] = HOLED
+        hole_out(ball)
     if is_out(model.land.ground, ball, model.land.ball.radius):
-        ball['phase'] = OUT
+        leave_bounds(ball)
     if ball['phase'] == OUT and before != OUT:
         log_out_of_bounds(ball, number, now, log)
     # A ball set off by another has no shot and so no result: only its loss is logged.
@@ -148,7 +153,10 @@ def end_if_over(model, ball, number, now, log):
 
 @kernel
 def plan_or_fail(model, ball, number, now, log):
-    """Plan the ball's next segment, or fail its shot if it can't go on. Writes segment, phase."""
+    """Plan the ball's next segment, or fail its shot if it can't go on.
+
+    Writes segment, integrator, contact, phase, motion, shot; logs a failure.
+    """
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):
         why = check_segment(ball, now)
@@ -159,7 +167,7 @@ def plan_or_fail(model, ball, number, now, log):
 
 @kernel
 def note_segment(balls, i, radius, work, since):
-    """Enter ball `i`'s new segment into the workspace. Writes segment_ends, the tree, spent.
+    """Enter ball `i`'s new segment into the workspace. Writes segment_ends, tree, spent.
 
     Takes and returns cycles as `count_cycles` does.
     """
@@ -193,7 +201,9 @@ def cycles_now():
 
 @kernel
 def limit_by_balls(balls, i, radius, now, work):
-    """End ball `i`'s segment where it hits another ball. Writes end, ending, target, segment_ends, the tree.
+    """End ball `i`'s segment where it hits another ball.
+
+    Writes end, ending, target, segment_ends, tree.
 
     A ball at rest ends the segments of others instead.
     """
@@ -239,7 +249,7 @@ def play_all(model, ball, strikes, gusts, work, log):
     """Play shots one after the other, each from the state in `ball`; their ends, an `ENDED` array.
 
     `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
-    the strike, the first 0, and the wind from then on. Overwrites `work` and `log`.
+    the strike, the first 0, and the wind from then on. Writes work, log.
     """
     model = borrowed(model)
     work = borrowed(work)
@@ -272,7 +282,7 @@ def play_all(model, ball, strikes, gusts, work, log):
 def end_now(ball, now):
     """End a flying ball's segment at `now`, since its surroundings have changed.
 
-    Writes end, ending, last_stage_time: the last stage holds rates in the old surroundings.
+    Writes end, ending, last_stage_time. The last stage holds rates in the old surroundings.
     """
     if ball['phase'] == FLIGHT:
         ball['end'] = now

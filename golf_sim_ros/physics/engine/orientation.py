@@ -12,7 +12,7 @@ UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 def turn_orientations(orientations, balls, time):
     """Turn the orientations of the `balls` that move by `time` [s] of their present spin.
 
-    Writes orientations, (n, 4), quaternions x, y, z, w: products of the rotation and what they were,
+    Writes orientations. They are (n, 4), quaternions x, y, z, w: products of the rotation and what they were,
     normalised again.
     """
     for i in range(len(balls)):

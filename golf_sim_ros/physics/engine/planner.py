@@ -6,8 +6,8 @@ from ..collision.ball_gap import within_contact_reach
 from ..collision.border_crossing import first_border_crossing
 from ..collision.ground_contact import WEDGED, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_ground_contact
 from ..collision.water_entry import first_water_entry
-from ..contact.contact_state import (heading, contact_material_number, choose_contact_mode, set_support,
-                                     remove_slip)
+from ..contact.contact_state import (heading, contact_material_number, remove_slip, set_support,
+                                     touch_down)
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment
 from ..effects import flight_rates, gravity_at
@@ -19,8 +19,9 @@ from ..mechanics.vector import ZERO, add_scaled, cross, dot, length, store, scal
 from ..response.ground_impact import cross_border
 from ..response.time_stepping import straight_segment, next_step_time
 from ..response.wedged_ball import wedged_step_length, is_wedged
-from ..state.ball import (BORDER_CROSSING, FLIGHT, GROUND_IMPACT, NO_PART, STEPPED, ROLL, SLIDE, WATER_ENTRY,
+from ..state.ball import (BORDER_CROSSING, FLIGHT, GROUND_IMPACT, NO_PART, STEPPED, ROLL, WATER_ENTRY,
                           STEP_END, TIME_LIMIT, moves)
+from ..state.transitions import begin_rolling, take_off
 from ..trajectory import segment
 from ..trajectory.equations_of_motion import LEAST_SPEED
 
@@ -36,7 +37,8 @@ SINKING_STEP = 0.02  # s: longest segment under water, at whose end the ball may
 def plan_next_segment(model, ball, now):
     """Plan the ball's next segment from its state at `now`, up to its first event.
 
-    Writes begin, end, ending, target and the curve; support, contact and phase where those change.
+    Writes segment, integrator, segments_spent, zero_length_segments, contact, phase, motion. The last three
+    change only where contact does.
     """
     ball['begin'] = now
     if not moves(ball['phase']):
@@ -51,18 +53,42 @@ def plan_next_segment(model, ball, now):
         return
     if ball['phase'] == FLIGHT:
         on = IN_THE_AIR
-        if ball['time_stepping'] == STEPPED:
-            straight_segment(ball, next_step_time(now) - now)
-        else:
-            step(model, ball)
+        flight_segment(model, ball, now)
     # A wedged or time-stepped ball moves as in flight; its contacts are solved at the step's end.
-    until = ball['span']
+    if ball['time_stepping'] > 0 or is_wedged(ball):
+        on = WEDGED
+    until = limit_by_ground(model, ball, span_to_solve(ball, now), on)
+    end_segment(model, ball, now, limit_by_water(model, ball, until))
+
+
+@kernel
+def flight_segment(model, ball, now):
+    """Plan a segment of flight: a step of the integrator, of a time-stepped ball a straight line.
+
+    Writes curve, ending, integrator.
+    """
+    if ball['time_stepping'] == STEPPED:
+        straight_segment(ball, next_step_time(now) - now)
+    else:
+        step(model, ball)
+
+
+@kernel
+def span_to_solve(ball, now):
+    """Span of the segment, cut to the time at which the ball's contacts are solved, if they are."""
     if ball['time_stepping']:
-        on = WEDGED
-        until = min(until, next_step_time(now) - now)
-    elif is_wedged(ball):
-        on = WEDGED
-        until = min(until, wedged_step_length(ball))
+        return min(ball['span'], next_step_time(now) - now)
+    if is_wedged(ball):
+        return min(ball['span'], wedged_step_length(ball))
+    return ball['span']
+
+
+@kernel
+def limit_by_ground(model, ball, until, on):
+    """First time, at most `until`, of a border or an impact with the ground.
+
+    Writes ending, target, segments_spent.
+    """
     # Borders first: on a mesh the next one is near, and contacts beyond it need no search.
     crosses = False
     if on == ON_FLAT or on == ON_CURVE:
@@ -78,7 +104,15 @@ def plan_next_segment(model, ball, now):
         ball['ending'] = BORDER_CROSSING
     if until < ball['span'] and ball['ending'] != GROUND_IMPACT and ball['ending'] != BORDER_CROSSING:
         ball['ending'] = STEP_END
-    # Water last: it needs no search beyond the other events.
+    return until
+
+
+@kernel
+def limit_by_water(model, ball, until):
+    """First time, at most `until`, of an entry into water, or of a look at a sinking ball.
+
+    Writes ending, target.
+    """
     if ball['water'] > 0:
         if until > SINKING_STEP:
             until = SINKING_STEP
@@ -88,7 +122,7 @@ def plan_next_segment(model, ball, now):
         if water > 0:
             ball['ending'] = WATER_ENTRY
             ball['target'] = water
-    end_segment(model, ball, now, until)
+    return until
 
 
 @kernel
@@ -111,7 +145,9 @@ def end_segment(model, ball, now, until):
 
 @shared
 def contact_segment(model, ball, now):
-    """Plan a segment of a ball in contact; what it is on, such as ON_FLAT. Writes curve, contact, phase.
+    """Plan a segment of a ball in contact; what it is on, such as ON_FLAT.
+
+    Writes motion, phase, contact, curve, ending, integrator, segments_spent.
 
     The ball may turn out to lift off.
     """
@@ -134,7 +170,7 @@ def contact_segment(model, ball, now):
 
 @shared
 def apply_air_to_micro_bounces(model, ball, now):
-    """Apply the air to micro-bounces. Writes micro_bounce_end, micro_bounce_load, micro_bounce_air, spin.
+    """Apply the air to micro-bounces. Writes micro_bounces, velocity, spin.
 
     Drag and torque act for their whole duration; lift makes them last longer and press less.
     """
@@ -164,25 +200,26 @@ def flat_ground_goes_on(land, ball):
 
 @kernel
 def launch(model, ball, now):
-    """Choose whether a ball sets off in flight or along the ground. Writes phase, motion, contact."""
-    ball['step'] = 0.0
+    """Choose whether a ball sets off in flight or along the ground.
+
+    Writes phase, step, velocity, spin, pile, water, micro_bounce_end.
+    """
+    take_off(ball)
     ball['rapid_impacts'] = 0
     ball['time_stepping'] = ball['sleeps_on_ball'] = 0
     ball['water'] = 0
     ball['micro_bounce_end'] = now
-    ball['phase'] = FLIGHT
     lift = dot(load(ball['velocity']), load(ball['normal']))
     if ball['support'] >= 0 and abs(lift) <= LEAST_SPEED:
-        ball['phase'] = SLIDE
-        choose_contact_mode(model.land, ball, now)
+        touch_down(model.land, ball, now)
 
 
 @entry
 def put_down(model, ball, position, depth):
     """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
 
-    Writes motion, support, material and normal, and the segment; the ball is at rest. Returns whether it
-    touches anything, how deep [m] it lies in the ground, and whether it is in water.
+    The ball is at rest. Returns whether it touches anything, how deep [m] it lies in the ground, and whether
+    it is in water. Writes motion, contact, curve, segments_spent.
     """
     model = borrowed(model)
     store(ball['position'], position)
@@ -207,7 +244,7 @@ def put_down(model, ball, position, depth):
 
 @kernel
 def read_segment(ball, now):
-    """Write the ball's position, velocity and spin at `now`, on its present segment."""
+    """Bring the ball to where it is at `now`, on its present segment. Writes motion."""
     if moves(ball['phase']) and now > ball['begin']:
         time = now - ball['begin']
         store(ball['position'], segment.position(ball, time))
@@ -222,4 +259,4 @@ def stop_slip(model, ball):
     turning = dot(load(ball['spin']), normal)
     rolling = scale(1.0 / model.land.ball.radius, cross(normal, load(ball['velocity'])))
     store(ball['spin'], add_scaled(rolling, turning, normal))
-    ball['phase'] = ROLL
+    begin_rolling(ball)

@@ -21,8 +21,10 @@ def held(x, low, high, pull):
 
 
 @shared
-def newton(a, b, c, gx, gy, fixed_x, fixed_y):
-    """Newton step for the gradient `gx`, `gy` and the Hessian `a`, `b`, `c`; a fixed coordinate stays."""
+def newton(hessian, gradient, fixed_x, fixed_y):
+    """Newton step for a gradient, by x and y, and a Hessian, by xx, xy and yy; a fixed coordinate stays."""
+    a, b, c = hessian
+    gx, gy = gradient
     if fixed_x and fixed_y:
         return 0.0, 0.0
     if fixed_x:
@@ -83,11 +85,11 @@ def descend(table, grid, box, x, y, point):
             a = 1.0 + at[1] * at[1]  # not positive definite: Gauss-Newton, as if the surface were flat
             b = at[1] * at[2]
             c = 1.0 + at[2] * at[2]
-        dx, dy = newton(a, b, c, gx, gy, fixed_x, fixed_y)
+        dx, dy = newton((a, b, c), (gx, gy), fixed_x, fixed_y)
         if not fixed_x and (x <= x0 and dx < 0.0 or x >= x1 and dx > 0.0):
-            dx, dy = newton(a, b, c, gx, gy, True, fixed_y)
+            dx, dy = newton((a, b, c), (gx, gy), True, fixed_y)
         elif not fixed_y and (y <= y0 and dy < 0.0 or y >= y1 and dy > 0.0):
-            dx, dy = newton(a, b, c, gx, gy, fixed_x, True)
+            dx, dy = newton((a, b, c), (gx, gy), fixed_x, True)
         if abs(dx) + abs(dy) <= CONVERGED_STEP * size:
             break
         share = min(share_within(x, dx, x0, x1), share_within(y, dy, y0, y1))

@@ -217,7 +217,7 @@ def _nearest(kind, part, point):
     x, y, at = place_under(kind, grid, part, local)
     offset = (local[0] - x, local[1] - y, local[2] - at[0])
     upright = unit((-at[1], -at[2], 1.0), ZERO)
-    sign = -1.0 if is_below_map(kind, grid, part, local, offset, (x, y), at) else 1.0
+    sign = -1.0 if is_below_map(kind, grid, part, local, (x, y), at) else 1.0
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < x < x1 and y0 < y < y1:  # the slopes give the normal more exactly than a short offset
         away = dot(offset, upright)
@@ -234,13 +234,14 @@ def is_over_map(grid, local):
 
 
 @shared
-def is_below_map(kind, grid, part, local, offset, place, at):
-    """Whether a point is under `part`, a cell or a map, whose closest point `place` is `offset` away.
+def is_below_map(kind, grid, part, local, place, at):
+    """Whether a point is under `part`, a cell or a map, whose closest point is at `place`.
 
     Beyond a wall a point is outside, even if it is nearest to the back of ground that falls away from there.
     """
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < place[0] < x1 and y0 < place[1] < y1:
+        offset = (local[0] - place[0], local[1] - place[1], local[2] - at[0])
         return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
     return (x0 < local[0] < x1 and y0 < local[1] < y1
             and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0])
@@ -286,7 +287,7 @@ def _turn(kind, part, point, velocity):
         dx = (c * p - b * q) / (a * c - b * b)
         dy = (a * q - b * p) / (a * c - b * b)
     rate = sub(velocity, (dx, dy, at[1] * dx + at[2] * dy))
-    sign = -1.0 if is_below_map(kind, grid, part, local, offset, (x, y), at) else 1.0
+    sign = -1.0 if is_below_map(kind, grid, part, local, (x, y), at) else 1.0
     return scale(sign, turned(rate, offset))
 
 
@@ -336,11 +337,10 @@ def _support_of(kind, part):
     return grid['number'] if part < len(kind.cells) and grid['gentle'] else part
 
 
-@surface_protocol.goes_on.register(Maps)
-def _goes_on(kind, part, other):
-    # A map's own walls are no obstacles either: a ball on the map touches only their upper edge, which is the
-    # map's.
-    return part == kind.grids[grid_of(kind, part)]['number'] and grid_of(kind, part) == grid_of(kind, other)
+@surface_protocol.smooth_surface.register(Maps)
+def _smooth_surface(kind, part):
+    # With a map's own walls: a ball on the map touches only their upper edge, which is the map's.
+    return kind.grids[grid_of(kind, part)]['number']
 
 
 @surface_protocol.material_of.register(Maps)

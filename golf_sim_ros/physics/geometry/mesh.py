@@ -241,7 +241,7 @@ def _in_plane(kind, part, point, normal):
 
 
 @surface_protocol.limits.register(Meshes)
-def _limits(kind):
+def _limits(kind, part):
     return 3
 
 

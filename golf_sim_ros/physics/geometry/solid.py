@@ -179,7 +179,7 @@ def _in_plane(kind, part, point, normal):
 
 
 @surface_protocol.is_ground.register(Solids)
-def _is_ground(kind):
+def _is_ground(kind, part):
     return False
 
 

@@ -91,8 +91,8 @@ def is_plane(kind, part):
 
 
 @generic
-def limits(kind):
-    """Number of straight lines at which flat parts end, beside outlines in plan."""
+def limits(kind, part):
+    """Number of straight lines at which `part` ends, beside outlines in plan."""
     return 0
 
 
@@ -109,14 +109,17 @@ def support_of(kind, part):
 
 
 @generic
-def goes_on(kind, part, other):
-    """Whether `other` continues the smooth surface `part`, a support, and so is no obstacle on it."""
-    return False
+def smooth_surface(kind, part):
+    """Part that is the whole of the smooth surface to which `part` belongs, -1 if there is none.
+
+    To a ball which that whole supports, `part` is no obstacle.
+    """
+    return -1
 
 
 @generic
-def is_ground(kind):
-    """Whether zones repaint this kind and the hole is cut into it."""
+def is_ground(kind, part):
+    """Whether zones repaint `part` and the hole is cut into it."""
     return True
 
 

@@ -58,6 +58,29 @@ def of_its_kind(law, otherwise):
             part -= n
         return result
 
+    return named_after(law, asked)
+
+
+def part_of_its_kind(law):
+    """`of_its_kind` for a `law` that answers with a part of the kind, or -1: its number among all parts."""
+    @shared
+    def asked(ground, part):
+        found = NO_PART
+        before = 0
+        for kind in literal_unroll(ground.kinds):
+            n = surface_protocol.parts(kind)
+            if before <= part < before + n:
+                k = law(kind, part - before)
+                if k >= 0:
+                    found = before + k
+            before += n
+        return found
+
+    return named_after(law, asked)
+
+
+def named_after(law, asked):
+    """Give the kernel `asked` a name and the documentation of its `law`."""
     # Compiled code of two processes may be linked in a third, by name: no two kernels may share one.
     asked.__name__ = asked.__qualname__ = f'{law.__name__}_of_its_kind'
     asked.__doc__ = law.__doc__
@@ -76,8 +99,14 @@ limit = of_its_kind(surface_protocol.limit, (ZERO, ZERO))
 _touchable = of_its_kind(surface_protocol.touchable, False)
 sort = of_its_kind(surface_protocol.sort, surface_protocol.GROUND_SORT)
 _own_material = of_its_kind(surface_protocol.material_of, 0)
+limits = of_its_kind(surface_protocol.limits, 0)
+is_ground = of_its_kind(surface_protocol.is_ground, False)
+support_of = part_of_its_kind(surface_protocol.support_of)
+_smooth_surface = part_of_its_kind(surface_protocol.smooth_surface)
 
 
+# Of `parts`, `next_part` and `top` each has a loop of its own: they ask all kinds, not the one of a part, and
+# put the answers together in three ways, as a sum, the first, the highest.
 @kernel
 def parts(ground):
     """Number of parts of all kinds."""
@@ -102,54 +131,10 @@ def next_part(ground, part, low, high):
     return found
 
 
-@shared
-def limits(ground, part):
-    """Number of straight lines at which `part` ends, beside outlines in plan."""
-    result = 0
-    for kind in literal_unroll(ground.kinds):
-        n = surface_protocol.parts(kind)
-        if 0 <= part < n:
-            result = surface_protocol.limits(kind)
-        part -= n
-    return result
-
-
-@shared
-def is_ground(ground, part):
-    """Whether zones repaint `part` and the hole is cut into it."""
-    result = False
-    for kind in literal_unroll(ground.kinds):
-        n = surface_protocol.parts(kind)
-        if 0 <= part < n:
-            result = surface_protocol.is_ground(kind)
-        part -= n
-    return result
-
-
-@shared
-def support_of(ground, part):
-    """Part that supports a ball which touches `part`: of a smooth surface, the surface as a whole."""
-    result = part
-    before = 0
-    for kind in literal_unroll(ground.kinds):
-        n = surface_protocol.parts(kind)
-        if before <= part < before + n:
-            result = before + surface_protocol.support_of(kind, part - before)
-        before += n
-    return result
-
-
-@shared
+@kernel
 def goes_on(ground, part, other):
     """Whether `other` continues the smooth surface `part`, a support, and so is no obstacle on it."""
-    result = False
-    for kind in literal_unroll(ground.kinds):
-        n = surface_protocol.parts(kind)
-        if 0 <= part < n and 0 <= other < n:
-            result = surface_protocol.goes_on(kind, part, other)
-        part -= n
-        other -= n
-    return result
+    return part != NO_PART and part == _smooth_surface(ground, other)
 
 
 @shared

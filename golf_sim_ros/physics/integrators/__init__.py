@@ -29,5 +29,5 @@ for _module in pkgutil.iter_modules(__path__):
 
 @shared
 def step(model, ball):
-    """Plan the ball's next segment: one step of the model's method. Writes curve, span, step, ending."""
+    """Plan the ball's next segment: one step of the model's method. Writes curve, ending, integrator."""
     runge_kutta.step_by(model.method, model, ball)

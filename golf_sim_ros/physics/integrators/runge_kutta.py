@@ -117,7 +117,10 @@ def error_in_metres(ball, weights, h):
 
 @kernel
 def start(model, ball, last):
-    """Write the first stage: after a whole step that step's `last` one (FSAL), else a new evaluation."""
+    """Begin with the first stage: after a whole step that step's `last` one (FSAL), else a new evaluation.
+
+    Writes stages, evaluations.
+    """
     goes_on = ball['step'] > 0.0 and ball['last_stage_time'] == ball['begin'] and not ball['time_stepping']
     if ball['phase'] == FLIGHT and goes_on:
         ball['stages'][0] = ball['stages'][last]
@@ -154,7 +157,7 @@ def hop(model, ball):
 def step_by(method, model, ball):
     """Plan the next segment: one step from the ball's state.
 
-    Writes curve, span, step, stages, last_stage_time, ending.
+    Writes curve, ending, integrator.
     """
     h = ball['step']
     begins = h == 0.0

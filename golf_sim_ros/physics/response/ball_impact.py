@@ -4,15 +4,17 @@ from ..collision import ball_interactions
 from ..collision.ball_gap import gap_between
 from ..collision.ground_contact import GENTLE_APPROACH
 from ..collision.workspace import CONTACTS, MultiBallWorkspace, INVOLVED
-from ..contact.contact_state import contact_material_number, choose_contact_mode
+from ..contact.contact_state import contact_material_number, touch_down
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.vector import dot, length, store, load
-from ..state.ball import FLIGHT, SLIDE, moves
-from ..state.events import BOUNCE, BALL_HIT, next_event
+from ..state.ball import FLIGHT, moves
+from ..state.events import BOUNCE, BALL_HIT
+from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import mark_moved_by_ball
 from . import contact_set, simultaneous_impact
+from .collision_log import NOT_A_PART, log_impact
 from .time_stepping import return_to_events, begin_time_stepping
 
 RAPID_BALL_IMPACT = 1e-4  # s between impacts: shorter where balls are coming to rest on each other
@@ -27,9 +29,9 @@ def _bump(work, land, balls, i, now, log):
 
 @shared
 def collide_balls(land, balls, i, now, work, log):
-    """Resolve the impact of ball `i` with its target, and with all that touches. Writes motion; logs impacts.
+    """Resolve the impact of ball `i` with its target, and with all that touches; it is logged.
 
-    Impacts that follow each other ever faster hand the balls over to time stepping.
+    Impacts that follow each other ever faster hand the balls over to time stepping. Writes ball, work.
     """
     j = balls[i]['target']
     contact_set.add_to_set(work, j)
@@ -58,9 +60,10 @@ def collide_balls(land, balls, i, now, work, log):
 
 @shared
 def resolve_contact_set(land, balls, now, work, first, log):
-    """Resolve the impact of the involved balls at all their contacts. Writes motion, motion_before, bounces.
+    """Resolve the impact of the involved balls at all their contacts.
 
-    Logs the impacts; with the ground, those of contacts from row `first` on.
+    Logs the impacts; with the ground, those of contacts from row `first` on. Writes velocity, spin, bounces,
+    moved_by_ball, struck_at, contacts, contact_counts, velocity_change, motion_before.
     """
     for k in range(work.count[INVOLVED]):
         mark_moved_by_ball(balls[work.involved[k]])
@@ -72,10 +75,10 @@ def resolve_contact_set(land, balls, now, work, first, log):
         if row['b'] < 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
             ball = balls[row['a']]
             ball['bounces'] += 1
-            event = log_contact_impact(balls, now, row, work, log)
-            event['kind'] = BOUNCE
-            event['material'] = contact_material_number(land, ball, row['part'], load(row['normal']))
-            event['sort'] = surfaces.sort(land.ground, row['part'])
+            normal = load(row['normal'])
+            material = contact_material_number(land, ball, row['part'], normal)
+            hit = BOUNCE, material, surfaces.sort(land.ground, row['part']), normal
+            log_impact(ball, (now, row['a']), hit, motion_before(work, row['a']), load(row['impulse']), log)
 
 
 @ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
@@ -83,9 +86,9 @@ def _tell_bumps(work, balls, now, log):
     for n in range(work.count[CONTACTS]):
         row = work.contacts[n]
         if row['b'] >= 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
-            event = log_contact_impact(balls, now, row, work, log)
-            event['kind'] = BALL_HIT
-            event['material'] = row['b']
+            hit = BALL_HIT, row['b'], NOT_A_PART, load(row['normal'])
+            log_impact(balls[row['a']], (now, row['a']), hit, motion_before(work, row['a']),
+                       load(row['impulse']), log)
 
 
 @kernel
@@ -98,25 +101,17 @@ def store_motion_before(balls, work):
 
 
 @kernel
-def log_contact_impact(balls, now, row, work, log):
-    """Log the impact of a contact's ball `a`; the event is returned without kind, material and sort."""
-    ball = balls[row['a']]
-    event = next_event(log)
-    event['time'] = now
-    event['ball'] = row['a']
-    store(event['position'], load(ball['position']))
-    store(event['normal'], load(row['normal']))
-    store(event['velocity_before'], load(work.motion_before[row['a'], 0:3]))
-    store(event['velocity_after'], load(ball['velocity']))
-    store(event['spin_before'], load(work.motion_before[row['a'], 3:6]))
-    store(event['spin_after'], load(ball['spin']))
-    store(event['impulse'], load(row['impulse']))
-    return event
+def motion_before(work, i):
+    """Velocity and spin of ball `i` before the impact."""
+    return load(work.motion_before[i, 0:3]), load(work.motion_before[i, 3:6])
 
 
 @kernel
 def resume_motion(land, balls, now, work, first):
-    """Choose phase and contact of the involved balls, from `first` on, after an impact. Writes both."""
+    """Choose phase and contact of the involved balls, from `first` on, after an impact.
+
+    Writes phase, step, velocity, spin, micro_bounce_end, sleeps_on_ball.
+    """
     for k in range(first, work.count[INVOLVED]):
         ball = balls[work.involved[k]]
         if not moves(ball['phase']):
@@ -126,11 +121,9 @@ def resume_motion(land, balls, now, work, first):
             ball['sleeps_on_ball'] = 0
         # A ball that the impact does not lift off its support keeps sliding or rolling there.
         lift = dot(load(ball['velocity']), load(ball['normal']))
-        if ball['time_stepping']:
-            ball['phase'] = FLIGHT
-        elif ball['phase'] != FLIGHT and ball['support'] >= 0 and abs(lift) <= LEAST_SPEED:
-            ball['phase'] = SLIDE
-            choose_contact_mode(land, ball, now)
+        if not ball['time_stepping'] and ball['phase'] != FLIGHT and ball['support'] >= 0 and (
+                abs(lift) <= LEAST_SPEED):
+            ball['step'] = 0.0
+            touch_down(land, ball, now)
         else:
-            ball['phase'] = FLIGHT
-        ball['step'] = 0.0
+            take_off(ball)

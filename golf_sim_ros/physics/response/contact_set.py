@@ -41,9 +41,10 @@ def synchronize(ball, now):
 
 @shared
 def collect_contacts(land, balls, work, now, known):
-    """Collect the contacts of the involved balls and of all that they touch. Writes involved, contacts.
+    """Collect the contacts of the involved balls and of all that they touch, brought to the present.
 
-    The first `known` balls have their contacts with the ground already.
+    The first `known` balls have their contacts with the ground already. Writes contacts, involved, motion,
+    end, ending, apex.
     """
     k = 0
     while k < work.count[INVOLVED]:
@@ -74,7 +75,10 @@ def clear_set(work):
 
 @kernel
 def add_contact(work, a, b, part, normal):
-    """Add a contact of ball `a` with ball `b`, or with a part of the ground; its row, or -1 when full."""
+    """Add a contact of ball `a` with ball `b`, or with a part of the ground; its row, or -1 when full.
+
+    Writes contacts.
+    """
     n = work.count[CONTACTS]
     if n == len(work.contacts):
         return -1
@@ -137,15 +141,16 @@ def collect_ground_contacts(land, ball, i, work, begin):
     place = load(ball['position'])
     if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(work, begin, load(ball['normal'])):
         normal = load(ball['normal'])
-        add_ground_contact(land, ball, i, ball['support'], normal,
-                           contact_material(land, ball, ball['support'], normal), work)
+        material = contact_material(land, ball, ball['support'], normal)
+        add_ground_contact(land, ball, i, (ball['support'], normal), material, work)
     low, high = surfaces.around(place, land.ball.radius + SIMULTANEOUS_GAP)
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         distance, normal = surfaces.nearest(ground, part, place)
         if distance - land.ball.radius <= SIMULTANEOUS_GAP and is_new_normal(work, begin, normal) and (
                 surfaces.touchable(ground, part, place)):
-            add_ground_contact(land, ball, i, part, normal, contact_material(land, ball, part, normal), work)
+            material = contact_material(land, ball, part, normal)
+            add_ground_contact(land, ball, i, (part, normal), material, work)
         part = surfaces.next_part(ground, part + 1, low, high)
 
 
@@ -159,8 +164,12 @@ def is_new_normal(work, begin, normal):
 
 
 @kernel
-def add_ground_contact(land, ball, i, part, normal, material, work):
-    """Add the contact of ball `i` with `part` of the ground, of that `material`. Writes contacts."""
+def add_ground_contact(land, ball, i, touched, material, work):
+    """Add the contact of ball `i` with what it touches, a part and its normal, of that `material`.
+
+    Writes contacts.
+    """
+    part, normal = touched
     n = add_contact(work, i, -1, part, normal)
     if n < 0:
         return

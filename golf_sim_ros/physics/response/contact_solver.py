@@ -59,7 +59,10 @@ def add_ground_contacts(land, ball, i, work, reach):
 
 @kernel
 def init_contact(row, gap, friction):
-    """Initialise a contact without impulse. Writes the contact."""
+    """Initialise a contact without impulse.
+
+    Writes separation, friction, rolling_resistance, normal_impulse, tangent_impulse.
+    """
     row['separation'] = gap
     row['friction'] = friction
     row['rolling_resistance'] = 0.0
@@ -71,8 +74,8 @@ def init_contact(row, gap, friction):
 def neighbours_within(balls, work, i, reach, radius, now):
     """Number of balls within `reach` of ball `i`; whether others are on their way there.
 
-    Writes neighbours, in rising order: Gauss-Seidel depends on the order of contacts, which must not depend
-    on the shape of the tree.
+    Writes neighbours. They are in rising order: Gauss-Seidel depends on the order of contacts, which must not
+    depend on the shape of the tree.
     """
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + reach)
@@ -117,9 +120,9 @@ def gap_rate(balls, i, j, now):
 
 @shared
 def correct_positions(balls, work):
-    """Correct penetration by moving balls apart, without changing velocities. Writes positions.
+    """Correct penetration by moving balls apart, without changing velocities.
 
-    Split impulses: stabilisation that adds no energy. Also writes position_change.
+    Split impulses: stabilisation that adds no energy. Writes position, position_change.
     """
     for k in range(work.count[INVOLVED]):
         store(work.position_change[work.involved[k]], ZERO)
@@ -161,7 +164,7 @@ def contact_partner(row):
 
 @shared
 def warm_start(land, balls, work):
-    """Start from the impulses of the step before. Writes the contacts' impulses and solved_motion."""
+    """Start from the impulses of the step before. Writes normal_impulse, tangent_impulse, solved_motion."""
     for n in range(work.count[CONTACTS]):
         row = work.contacts[n]
         ball = balls[row['a']]
@@ -263,7 +266,10 @@ def sweep_impulses(land, work, backward):
 
 @shared
 def solve_contacts(land, balls, work):
-    """Solve all contacts by Gauss-Seidel sweeps. Writes impulses, also stored ones, and solved_motion."""
+    """Solve all contacts by Gauss-Seidel sweeps.
+
+    Writes normal_impulse, tangent_impulse, warm_start, solved_motion.
+    """
     warm_start(land, balls, work)
     for sweep in range(MOST_SWEEPS):
         if sweep_impulses(land, work, sweep % 2 == 1) <= CONVERGED:
@@ -273,9 +279,9 @@ def solve_contacts(land, balls, work):
 
 @kernel
 def write_back(ball, work, i):
-    """Write ball `i`'s solved motion back, and clear its support. Writes motion and contact fields.
+    """Bring ball `i` to its solved motion, without support yet: `count_support` fills that in.
 
-    Those are held_by, rolling_loss, normal and support; `count_support` fills them in.
+    Writes velocity, spin, contact, held_by, rolling_loss.
     """
     store(ball['velocity'], load(work.solved_motion[i, 0:3]))
     store(ball['spin'], load(work.solved_motion[i, 3:6]))
@@ -296,7 +302,7 @@ def is_pressed_by_gravity(land, ball, normal):
 def count_support(land, balls, row):
     """Count a contact that presses or nearly touches as support of its balls.
 
-    Writes held_by, rolling_loss; support, material and normal of the ball, if it is the most level surface.
+    The most level surface is what the ball is on. Writes held_by, rolling_loss, contact.
     """
     if row['normal_impulse'] <= 0.0 and row['separation'] > RESTING_GAP:
         return

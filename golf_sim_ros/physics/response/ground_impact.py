@@ -1,19 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Impact with the ground: the impulse, and whether the ball flies, slides or rolls afterwards."""
 from ..collision.workspace import INVOLVED
-from ..contact.contact_state import heading, contact_material_number, choose_contact_mode, set_support
+from ..contact.contact_state import (heading, contact_material_number, choose_contact_mode, set_support,
+                                     touch_down)
 from ..effects import effective_normal, gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.impulse import ContactProperties, impulse, apply_impulse
 from ..mechanics.vector import ZERO, add_scaled, dot, length, store, scale, sub, tangential, load
 from ..properties.material import restitution
-from ..state.ball import FLIGHT, SLIDE
-from ..state.events import BOUNCE, next_event
+from ..state.ball import FLIGHT
+from ..state.events import BOUNCE
+from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import record_landing
 from . import contact_set
 from .ball_impact import LEAST_LOGGED_APPROACH, resolve_contact_set, resume_motion
+from .collision_log import log_impact
 from .contact_solver import is_pressed_by_gravity
 from .time_stepping import return_to_events
 from .wedged_ball import RAPID, step_wedged, is_wedged
@@ -30,7 +33,7 @@ LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 @shared
 def resolve_ground_impact(land, balls, i, now, work, log):
-    """Resolve the impact of ball `i` with its target. Writes motion, phase and contact; logs the impact.
+    """Resolve the impact of ball `i` with its target. Writes ball, work; logs the impact.
 
     Other balls that touch it take part in the impact and become involved.
     """
@@ -59,7 +62,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
     before = load(ball['velocity']), load(ball['spin'])
     number = contact_material_number(land, ball, ball['target'], normal)
     material = land.materials[number]
-    contact_set.add_ground_contact(land, ball, i, ball['target'], normal, material, work)
+    contact_set.add_ground_contact(land, ball, i, (ball['target'], normal), material, work)
     contact_set.collect_contacts(land, balls, work, now, 1 if alone else 0)
     # A single approaching contact has a closed form; several at one instant are solved together.
     if work.count[INVOLVED] > 1 or contact_set.count_approaching(balls, work) > 1:
@@ -69,7 +72,9 @@ def resolve_ground_impact(land, balls, i, now, work, log):
         apply_bounce(land, ball, normal, material)
     rebound = max(dot(load(ball['velocity']), normal), 0.0)
     if approach > LEAST_LOGGED_APPROACH:
-        log_ground_impact(land, ball, i, now, normal, number, before, log)
+        hit = BOUNCE, number, surfaces.sort(land.ground, ball['target']), normal
+        push = scale(land.ball.mass, sub(load(ball['velocity']), before[0]))
+        log_impact(ball, (now, i), hit, before, push, log)
     # One longer segment among many short ones does not reset the count: between two lips they come in waves.
     if now - ball['begin'] < RAPID:
         ball['rapid_impacts'] += 1
@@ -97,26 +102,10 @@ def apply_bounce(land, ball, normal, material):
 
 
 @kernel
-def log_ground_impact(land, ball, number, now, normal, material, before, log):
-    """Log an impact of a ball with the ground."""
-    event = next_event(log)
-    event['time'] = now
-    event['ball'] = number
-    event['kind'] = BOUNCE
-    event['material'] = material
-    event['sort'] = surfaces.sort(land.ground, ball['target'])
-    store(event['position'], load(ball['position']))
-    store(event['normal'], normal)
-    store(event['velocity_before'], before[0])
-    store(event['velocity_after'], load(ball['velocity']))
-    store(event['spin_before'], before[1])
-    store(event['spin_after'], load(ball['spin']))
-    store(event['impulse'], scale(land.ball.mass, sub(load(ball['velocity']), before[0])))
-
-
-@kernel
 def choose_after_impact(land, ball, now, impact, normal, material):
-    """Choose between flight and contact after an impact. Writes phase, contact, velocity and spin.
+    """Choose between flight and contact after an impact.
+
+    Writes phase, step, contact, micro_bounces, velocity, spin.
 
     The ball flies, or stays on what it hit if gravity presses it there, or on what it was on before.
     """
@@ -132,8 +121,7 @@ def choose_after_impact(land, ball, now, impact, normal, material):
             ball['micro_bounce_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
             ball['micro_bounce_load'] = 0.5 * (1.0 + bounciness)
             set_support(land, ball, surfaces.support_of(land.ground, ball['target']), normal)
-            ball['phase'] = SLIDE
-            choose_contact_mode(land, ball, now)
+            touch_down(land, ball, now)
             return
     else:
         # A wall has no micro-bounces to sum: a least rebound bounds the number of impacts instead.
@@ -141,11 +129,9 @@ def choose_after_impact(land, ball, now, impact, normal, material):
         if rebound < least:
             store(ball['velocity'], add_scaled(load(ball['velocity']), least - rebound, normal))
         if supported and abs(dot(load(ball['velocity']), load(ball['normal']))) <= LEAST_SPEED:
-            ball['phase'] = SLIDE
-            choose_contact_mode(land, ball, now)
+            touch_down(land, ball, now)
             return
-    ball['phase'] = FLIGHT
-    ball['step'] = 0.0
+    take_off(ball)
     store(ball['normal'], normal)
 
 
@@ -194,12 +180,14 @@ def micro_bounce_threshold(land, ball):
 
 @shared
 def cross_border(land, ball, now):
-    """Find the support of a ball that has reached a border in plan. Writes position, phase and contact."""
+    """Find the support of a ball that has reached a border in plan.
+
+    Writes motion, phase, step, contact.
+    """
     ahead = heading(land, ball)
     part, normal = surfaces.touched(land.ground, load(ball['position']), land.ball.radius, ahead)
     if part < 0:  # the ground ends here
-        ball['phase'] = FLIGHT
-        ball['step'] = 0.0
+        take_off(ball)
         return
     distance, normal = surfaces.under(land.ground, part, load(ball['position']), ahead)
     store(ball['position'], add_scaled(load(ball['position']), land.ball.radius - distance, normal))

@@ -22,7 +22,10 @@ MOST_GRADIENT_STEPS = 3000
 
 @shared
 def solve_reflections(land, balls, work):
-    """Solve the impacts of all contacts at once. Writes velocities, spins, and the contacts' impulses."""
+    """Solve the impacts of all contacts at once.
+
+    Writes velocity, spin, contacts, contact_counts, velocity_change.
+    """
     contacts = work.contacts
     count = work.count[CONTACTS]
     fastest = 0.0
@@ -46,9 +49,10 @@ def solve_reflections(land, balls, work):
 
 @kernel
 def project_impulses(work):
-    """Project out the approach of the active contacts. Writes normal_impulse [m/s], an impulse over mass.
+    """Project out the approach of the active contacts, by impulses over mass: normal_impulse [m/s].
 
-    Also writes previous_impulse, extrapolated_impulse, contact_count and the workspace's velocity_change.
+    Writes normal_impulse, previous_impulse, extrapolated_impulse, contact_count, contact_counts,
+    velocity_change.
     """
     contacts = work.contacts
     count = work.count[CONTACTS]
@@ -101,9 +105,9 @@ def project_impulses(work):
 
 @kernel
 def count_contacts(work):
-    """Number of active contacts. Writes contact_counts of each ball, and contact_count of each contact.
+    """Number of active contacts. Writes contact_counts, contact_count.
 
-    A contact's count is that of the one of its balls that has more contacts.
+    The first is that of each ball, the other that of the one of a contact's balls that has more of them.
     """
     for k in range(work.count[INVOLVED]):
         work.contact_counts[work.involved[k]] = 0.0
@@ -150,9 +154,9 @@ def rate_change(work, row):
 
 @kernel
 def apply_impulses(land, balls, work, last):
-    """Apply normal impulses, with restitution unless it is the `last` round, then friction. Writes motion.
+    """Apply normal impulses, with restitution unless it is the `last` round, then friction.
 
-    Writes the contacts' normal_impulse [N s], tangent_impulse, impulse.
+    Writes motion, and normal_impulse [N s], tangent_impulse, impulse.
     """
     contacts = work.contacts
     for n in range(work.count[CONTACTS]):
@@ -178,7 +182,7 @@ def apply_impulses(land, balls, work, last):
 
 @kernel
 def apply_to_both(land, balls, row, push):
-    """Apply the impulse `push` [N s] to both bodies of a contact. Writes motion and the contact's impulse."""
+    """Apply the impulse `push` [N s] to both bodies of a contact. Writes motion, impulse."""
     normal = load(row['normal'])
     store(row['impulse'], add(load(row['impulse']), push))
     apply_impulse(balls[row['a']], push, normal, land.ball)

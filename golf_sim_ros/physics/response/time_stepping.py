@@ -17,12 +17,13 @@ from ..collision.ball_gap import position_at
 from ..collision.broad_phase import next_node
 from ..collision.ground_contact import RESTING_GAP
 from ..collision.workspace import ASLEEP, CONTACTS, MultiBallWorkspace, INVOLVED
-from ..contact.contact_state import choose_contact_mode
+from ..contact.contact_state import touch_down
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.vector import ZERO, add_scaled, length, store, scale, sub, load
-from ..state.ball import FLIGHT, HOLED, JOINED, NO_PART, STEPPED, REST, SLIDE, STEP_END
+from ..state.ball import HOLED, JOINED, NO_PART, STEPPED, REST, STEP_END
+from ..state.transitions import come_to_rest, take_off
 from ..trajectory.segment import fit_segment
 from ..trajectory.shot_record import mark_moved_by_ball
 from .contact_set import synchronize, add_to_set
@@ -53,13 +54,12 @@ def is_step_time(now):
 
 @kernel
 def begin_time_stepping(ball):
-    """Switch a ball from events to time stepping. Writes time_stepping, phase, and what goes with them."""
+    """Switch a ball from events to time stepping. Writes phase, pile, step, moved_by_ball, struck_at."""
     mark_moved_by_ball(ball)
     ball['sleeps_on_ball'] = 0
     ball['time_stepping'] = JOINED
     ball['rapid_impacts'] = MANY_RAPID_IMPACTS + 1
-    ball['phase'] = FLIGHT
-    ball['step'] = 0.0
+    take_off(ball)
     ball['still_steps'] = 0
     ball['stored_count'] = 0
 
@@ -73,7 +73,7 @@ def return_to_events(ball):
 
 @kernel
 def straight_segment(ball, span):
-    """Plan a straight segment of `span` seconds. Writes the curve, span and ending."""
+    """Plan a straight segment of `span` seconds. Writes curve, ending."""
     v = load(ball['velocity'])
     ball['span'] = span
     ball['ending'] = STEP_END
@@ -132,7 +132,7 @@ def _rouse(work, balls, radius, now):
 
 @shared
 def solve_time_step(land, balls, now, work):
-    """Solve one time step of all time-stepped balls that are due. Writes motion and phases."""
+    """Solve one time step of all time-stepped balls that are due. Writes ball, work."""
     for i in range(len(balls)):
         if balls[i]['time_stepping'] and work.segment_ends[i] == now and work.involved_index[i] < 0:
             add_to_set(work, i)
@@ -169,7 +169,7 @@ def apply_gravity(land, balls, work, i):
 def collect_resting_contacts(land, balls, work, now):
     """Collect the contacts of the involved balls within reach; sleepers that they push join.
 
-    Writes contacts, involved, contact_reach, watches_neighbours.
+    Writes contacts, involved, neighbours, solved_motion, pile, phase, step, struck_at, moved_by_ball.
     """
     reach = contact_reach(work)
     k = 0
@@ -199,7 +199,7 @@ def collect_resting_contacts(land, balls, work, now):
 def choose_after_step(land, ball, now, work):
     """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
 
-    Writes motion, phase, time_stepping, sleeps_on_ball, still_steps.
+    Writes motion, phase, step, pile, count.
     """
     speed = length(load(ball['velocity']))
     left = max(speed - ball['rolling_loss'], 0.0)
@@ -210,20 +210,16 @@ def choose_after_step(land, ball, now, work):
     turning = land.ball.radius * length(load(ball['spin']))
     is_still = left + turning < STILL_SPEED and ball['held_by'] > 0
     ball['still_steps'] = ball['still_steps'] + 1 if is_still else 0
-    ball['phase'] = FLIGHT
-    ball['step'] = 0.0
+    take_off(ball)
     if ball['still_steps'] > STEPS_TO_SLEEP:
         ball['sleeps_on_ball'] = 1 if ball['held_by'] > 1 else 0
         work.count[ASLEEP] |= ball['sleeps_on_ball']
         return_to_events(ball)
-        store(ball['velocity'], ZERO)
-        store(ball['spin'], ZERO)
-        ball['phase'] = REST
+        come_to_rest(ball)
     elif ball['held_by'] == 0 or speed > FREE_SPEED or ball['held_by'] == 1 and ball['support'] != NO_PART:
         return_to_events(ball)
         # Back from half-way through the step (leapfrog) to the velocity at its start.
         weight = gravity_at(land.effects, load(ball['position']))
         store(ball['velocity'], add_scaled(load(ball['velocity']), -0.5 * TIME_STEP, weight))
         if ball['held_by'] == 1 and ball['support'] != NO_PART:
-            ball['phase'] = SLIDE
-            choose_contact_mode(land, ball, now)
+            touch_down(land, ball, now)

@@ -3,11 +3,12 @@
 from math import asin, pi, sqrt
 
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, dot, length, store, scale, sub, load
+from ..mechanics.vector import UP, dot, length, store, scale, sub, load
 from ..properties.water import ADDED_MASS, WATER_DENSITY
-from ..state.ball import FLIGHT, NO_PART, WATER, moves
-from ..state.events import WATER_HIT, next_event
+from ..state.ball import FLIGHT, NO_PART, moves
+from ..state.events import WATER_HIT
 from ..trajectory.shot_record import record_landing
+from .collision_log import NOT_A_PART, log_impact
 
 # Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998) 15-24: a
 # sphere ricochets off water that it hits at less than 18 degrees over the root of its specific gravity. For a
@@ -33,9 +34,10 @@ def specific_gravity(record):
 
 @shared
 def resolve_water_impact(land, ball, number, now, log):
-    """Resolve the impact of ball `number` with water: ricochet or entry. Writes motion, water; logs it.
+    """Resolve the impact of ball `number` with water, ricochet or entry, and log it.
 
-    A ball that enters shares its momentum with its added mass.
+    A ball that enters shares its momentum with its added mass. Writes water, velocity, spin, contact, step,
+    pile, landing, bounces.
     """
     record_landing(ball, now)
     velocity = load(ball['velocity'])
@@ -52,11 +54,12 @@ def resolve_water_impact(land, ball, number, now, log):
         # A ball that rolls in keeps its support: its shot ends there as one that touches ground under water.
         if ball['phase'] == FLIGHT:
             ball['support'] = NO_PART
-    store(ball['normal'], (0.0, 0.0, 1.0))
+    store(ball['normal'], UP)
     ball['step'] = 0.0
     ball['rapid_impacts'] = 0
     ball['time_stepping'] = 0
-    log_water_impact(land, ball, number, now, (velocity, spin), log)
+    push = scale(land.ball.mass, sub(load(ball['velocity']), velocity))
+    log_impact(ball, (now, number), (WATER_HIT, NOT_A_PART, NOT_A_PART, UP), (velocity, spin), push, log)
 
 
 @kernel
@@ -68,22 +71,6 @@ def skips_off(land, ball, velocity, heavy):
     if ball['phase'] != FLIGHT or velocity[2] >= 0.0 or speed < SKIPS_AT or under > 1e-6:
         return False
     return asin(-velocity[2] / speed) < CRITICAL_ANGLE / sqrt(heavy)
-
-
-@kernel
-def log_water_impact(land, ball, number, now, before, log):
-    """Log an impact of a ball with water."""
-    event = next_event(log)
-    event['time'] = now
-    event['ball'] = number
-    event['kind'] = WATER_HIT
-    store(event['position'], load(ball['position']))
-    store(event['normal'], (0.0, 0.0, 1.0))
-    store(event['velocity_before'], before[0])
-    store(event['velocity_after'], load(ball['velocity']))
-    store(event['spin_before'], before[1])
-    store(event['spin_after'], load(ball['spin']))
-    store(event['impulse'], scale(land.ball.mass, sub(load(ball['velocity']), before[0])))
 
 
 @kernel
@@ -104,11 +91,3 @@ def has_ended_in_water(land, ball):
     depth = land.ground.waters.levels[ball['water'] - 1] - ball['position'][2]
     slow = dot(v, v) < SINKING_SPEED * SINKING_SPEED
     return depth > DEEPEST or slow and (depth > DEEP * land.ball.radius or v[2] >= 0.0)
-
-
-@kernel
-def sink(ball):
-    """End the ball's path in the water. Writes phase and motion."""
-    ball['phase'] = WATER
-    store(ball['velocity'], ZERO)
-    store(ball['spin'], ZERO)

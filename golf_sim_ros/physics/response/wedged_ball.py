@@ -10,10 +10,11 @@ from math import sqrt
 from ..collision.conservative_advancement import TOUCH
 from ..collision.ground_contact import HOLDING_GAP
 from ..collision.workspace import CONTACTS
-from ..contact.contact_state import choose_contact_mode
+from ..contact.contact_state import touch_down
 from ..jit import kernel, shared
 from ..mechanics.vector import ZERO, add, length, store, load
-from ..state.ball import FLIGHT, NO_PART, REST, SLIDE
+from ..state.ball import NO_PART
+from ..state.transitions import come_to_rest, take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.segment import greatest_acceleration
 from .contact_solver import (write_back, add_ground_contacts, count_support, sweep_impulses, sweep_positions,
@@ -41,9 +42,10 @@ def wedged_step_length(ball):
 
 @shared
 def step_wedged(land, balls, i, now, work):
-    """Solve the contacts of the wedged ball `i` at a time step's end. Writes motion, phase and contact.
+    """Solve the contacts of the wedged ball `i` at a time step's end.
 
-    A ball with one support left, or none, is no longer wedged.
+    A ball with one support left, or none, is no longer wedged. Writes motion, phase, contact, integrator,
+    pile, contacts, solved_motion, position_change.
     """
     ball = balls[i]
     store(work.solved_motion[i, 0:3], load(ball['velocity']))
@@ -63,17 +65,14 @@ def step_wedged(land, balls, i, now, work):
         count_support(land, balls, work.contacts[n])
     left = max(length(load(ball['velocity'])) - ball['rolling_loss'], 0.0)
     limit_speed(ball, left)
-    ball['phase'] = FLIGHT
-    # A held ball gets a fixed first step: the estimate of a hop's length would follow rounding.
-    ball['step'] = WEDGED_STEP if ball['held_by'] > 0 else 0.0
+    take_off(ball)
+    if ball['held_by'] > 0:  # a fixed first step: the estimate of a hop's length would follow rounding
+        ball['step'] = WEDGED_STEP
     ball['last_stage_time'] = -1.0
     if ball['held_by'] == 0:
         ball['rapid_impacts'] = 0
     elif left < REST_SPEED and ball['support'] != NO_PART:
-        store(ball['velocity'], ZERO)
-        store(ball['spin'], ZERO)
-        ball['phase'] = REST
+        come_to_rest(ball)
     elif ball['held_by'] == 1 and ball['support'] != NO_PART:
         ball['rapid_impacts'] = 0
-        ball['phase'] = SLIDE
-        choose_contact_mode(land, ball, now)
+        touch_down(land, ball, now)

@@ -33,6 +33,6 @@ def new_log(capacity=64):
 
 @kernel
 def next_event(log):
-    """Next event of the log, to be written; the last one again where the log is full. Writes count."""
+    """Next event of the log, to be written; the last one again where the log is full. Writes log."""
     log.count[0] = min(log.count[0] + 1, len(log.events))
     return log.events[log.count[0] - 1]

@@ -181,7 +181,7 @@ def acceleration_bounds(g, span):
 
 @kernel
 def stay_in_place(ball):
-    """Plan a segment at rest, with the ball's spin. Writes the curve and span."""
+    """Plan a segment at rest, with the ball's spin. Writes curve."""
     ball['span'] = 1.0
     store(ball['origin'], load(ball['position']))
     ball['position_coefficients'][:, :] = 0.0

@@ -60,7 +60,7 @@ class Heard:
         self.diagnosed.append((slow, values))
 
 
-class ToldGame:
+class ObservedGame:
     """A game on `course`; `results` and `entries` are all that it published of shots and of inputs."""
 
     def __init__(self, monkeypatch, course, balls=('ball',), factor=1.0, rate=250.0):

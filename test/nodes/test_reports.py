@@ -8,47 +8,47 @@ from std_srvs.srv import SetBool
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.nodes.diagnostics import Diagnostics
+from observed_game import ObservedGame
 from processes import parameters, READY, wait_until
-from told_game import ToldGame
 
 
-def told(diagnostics, name, key):
+def diagnosed(diagnostics, name, key):
     """What the last diagnostics of the node `name` say of `key`; '' before they came."""
     found = [status for message in list(diagnostics) for status in message.status if status.name == name]
     return next((value.value for value in found[-1].values if value.key == key), '') if found else ''
 
 
 def test_no_warning_follows_a_pause(monkeypatch):
-    told = ToldGame(monkeypatch, load_course('golf_without_friends'))
-    clock = told.clock
+    observed = ObservedGame(monkeypatch, load_course('golf_without_friends'))
+    clock = observed.clock
     monkeypatch.setattr('golf_sim_ros.nodes.diagnostics.monotonic', clock)
-    told.game.diagnostics = Diagnostics()
-    told.send('ball', (50.0, 0.0, 20.0))
-    told.step(50)
-    told.game.diagnose()
-    told.step(10)
-    told.game.paused = True
-    told.step(20)
-    told.game.paused = False
-    told.step(20)
-    told.game.diagnose()  # of a second of which 0.4 s stood still
-    assert not told.log.warning.called
-    told.step(10)
+    observed.game.diagnostics = Diagnostics()
+    observed.send('ball', (50.0, 0.0, 20.0))
+    observed.step(50)
+    observed.game.diagnose()
+    observed.step(10)
+    observed.game.paused = True
+    observed.step(20)
+    observed.game.paused = False
+    observed.step(20)
+    observed.game.diagnose()  # of a second of which 0.4 s stood still
+    assert not observed.log.warning.called
+    observed.step(10)
     clock.now += 5.0  # now it is slow in earnest
-    told.step()
-    told.game.diagnose()
-    assert told.log.warning.called
+    observed.step()
+    observed.game.diagnose()
+    assert observed.log.warning.called
 
 
 @pytest.fixture(scope='module')
 def sim(start):
-    process = start('sim_node', *parameters('/told'))
+    process = start('sim_node', *parameters('/reports'))
     process.wait_for(READY)
     return process
 
 
 def test_a_long_frame_is_cut_in_the_log(sim, make_client):
-    client = make_client('/told')
+    client = make_client('/reports')
     winds = client.publisher(Vector3Stamped, 'wind')
     message = Vector3Stamped()
     message.header.frame_id = 'x' * 100000
@@ -58,7 +58,7 @@ def test_a_long_frame_is_cut_in_the_log(sim, make_client):
 
 
 def test_a_best_effort_publisher_of_shots_gets_one_warning_that_names_the_mismatch(sim, make_client):
-    client = make_client('/told')
+    client = make_client('/reports')
     unheard = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
     client.node.create_publisher(Twist, 'shot', unheard)
     sim.wait_for('a publisher of shot is not heard: its RELIABILITY does not match')
@@ -67,10 +67,10 @@ def test_a_best_effort_publisher_of_shots_gets_one_warning_that_names_the_mismat
 
 
 def test_strikes_that_were_lost_unseen_are_counted_in_the_diagnostics(sim, make_client):
-    client = make_client('/told')
+    client = make_client('/reports')
     diagnostics = client.listen(DiagnosticArray, '/diagnostics')
-    wait_until(lambda: told(diagnostics, '/told/golf_sim: play', 'strikes lost unseen').isdigit(),
-               'the diagnostics told of lost strikes')
+    wait_until(lambda: diagnosed(diagnostics, '/reports/golf_sim: play', 'strikes lost unseen').isdigit(),
+               'the diagnostics tell of lost strikes')
 
 
 def test_security_without_a_keystore_is_one_line(start):

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Live parameters: what of an effect may change while balls move, by the effect's name.
+
+A `World` hands them to `Scene` as fields of these names; its state, journals and replays carry them all.
+"""
+from math import isfinite
+
+MOST_WIND = 100.0  # m/s
+
+
+def checked_wind(wind):
+    """Tuple of three floats of `wind`; ValueError where it is not finite or too strong."""
+    wind = tuple(map(float, wind))
+    if len(wind) != 3 or not all(map(isfinite, wind)):
+        raise ValueError(f'wind {wind} is not three finite numbers')
+    if sum(x * x for x in wind) > MOST_WIND * MOST_WIND:
+        raise ValueError(f'wind {wind} is over {MOST_WIND:g} m/s')
+    return wind
+
+
+LIVE = {'wind': checked_wind}  # what makes a tuple of floats of a value, or raises ValueError
+
+
+def checked_live(effect, value):
+    """Tuple of floats of a `value` for that `effect`; ValueError where there is none to set, or not this."""
+    if effect not in LIVE:
+        raise ValueError(f'effect {effect!r} has nothing that can be set; those that do: {", ".join(LIVE)}')
+    return LIVE[effect](value)

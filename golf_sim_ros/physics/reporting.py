@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Reporting: the engine's log as collisions and results, with names for its numbers."""
+from typing import NamedTuple, Optional
+
+from .result import COLLISION_KINDS, Collision, failure, result
+from .state.ball import FAILED, OUT, WATER
+from .state.events import BALL_HIT, LOST, SHOT_ENDS, WATER_HIT, WENT_OUT
+from .state.serialize import plain_rows
+
+
+class Labels(NamedTuple):
+    """Names of the `balls` and the `materials` by number, and where the `hole` is, or None."""
+
+    balls: tuple
+    materials: tuple
+    hole: Optional[tuple]
+
+
+class Report(NamedTuple):
+    """Logged events: each `Collision` and `Result` in order, what else follows from them.
+
+    ``lost``: numbers of the balls that are to be dropped; ``failures``: why balls could not go on.
+    """
+
+    events: list
+    lost: list
+    failures: list
+
+
+def report(log, balls, labels, start):
+    """`Report` of the logged events, which empties the log; a failed shot no longer counts as a stroke.
+
+    `start` is the world's time at the zero of the engine's clock.
+    """
+    events, lost, failures = [], [], []
+    for time, number, kind, other, sort, *vectors in plain_rows(log.events[:log.count[0]]):
+        ball, name = balls[number], labels.balls[number]
+        if kind == SHOT_ENDS:
+            events.append(result(ball, name, start + time, labels.hole, labels.materials))
+        elif kind != LOST:
+            events.append(Collision(start + time, name, *hit(labels, kind, other, sort), *vectors))
+        if kind == LOST or kind == SHOT_ENDS and ball['phase'] in (WATER, OUT, FAILED):
+            lost.append(number)
+        if kind in (LOST, SHOT_ENDS) and ball['phase'] == FAILED:
+            ball['strokes'] -= kind == SHOT_ENDS  # the next one has the same number
+            failures.append(f'{name}: {failure(ball)}')
+    log.count[:] = 0
+    return Report(events, lost, failures)
+
+
+def hit(labels, kind, other, sort):
+    """Kind of a logged collision, and name of the material or ball that was hit."""
+    if kind == BALL_HIT:
+        return 'ball', labels.balls[other]
+    if kind == WATER_HIT:
+        return 'water', 'water'
+    lie = labels.materials[other] if other >= 0 else ''
+    return ('out_of_bounds' if kind == WENT_OUT else COLLISION_KINDS[sort]), lie
+
+
+def aborted(balls, labels, clock, time):
+    """`Result` of each shot under way, which ends now: at `clock` for the engine, at the world's `time`."""
+    under_way = [number for number, ball in enumerate(balls) if ball['shot_active']]
+    balls['ended'][under_way] = clock
+    return [result(balls[number], labels.balls[number], time, labels.hole, labels.materials)
+            for number in under_way]

@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Log of collisions: the one writer of events of impacts, with ground, balls and water, and of going out."""
+from ..jit import kernel
+from ..mechanics.vector import ZERO, load, store
+from ..state.events import WENT_OUT, next_event
+
+NOT_A_PART = -1  # sort, and material, of what is no part of the ground
+
+
+@kernel
+def log_impact(ball, instant, hit, before, push, log):
+    """Log an impact that has just been applied to `ball`.
+
+    `instant` is the time and the ball's number; `hit` the event's kind, material and sort and the normal of
+    what is hit; `before` the velocity and spin before the impact; `push` the impulse [N s].
+    """
+    event = next_event(log)
+    event['time'] = instant[0]
+    event['ball'] = instant[1]
+    event['kind'] = hit[0]
+    event['material'] = hit[1]
+    event['sort'] = hit[2]
+    store(event['position'], load(ball['position']))
+    store(event['normal'], hit[3])
+    store(event['velocity_before'], before[0])
+    store(event['velocity_after'], load(ball['velocity']))
+    store(event['spin_before'], before[1])
+    store(event['spin_after'], load(ball['spin']))
+    store(event['impulse'], push)
+
+
+@kernel
+def log_out_of_bounds(ball, number, now, log):
+    """Log that the ball has gone out of bounds."""
+    material = ball['material'] if ball['support'] >= 0 else NOT_A_PART
+    motion = load(ball['velocity']), load(ball['spin'])
+    log_impact(ball, (now, number), (WENT_OUT, material, NOT_A_PART, load(ball['normal'])), motion, ZERO, log)

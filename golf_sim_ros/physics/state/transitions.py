@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Transitions of a ball between phases: nothing else in the kernels writes a ball's `phase`.
+
+A phase comes with what goes along with it: motion that ends, or an integrator that starts anew. They stand
+beside the record, low in the layers, and not with the responses: the record of a shot stops and fails balls,
+and contact lets them slide, roll and rest. Which transition it is is decided there.
+"""
+from ..jit import kernel
+from ..mechanics.vector import ZERO, load, store
+from .ball import FAILED, FLIGHT, HOLED, OUT, REST, ROLL, SLIDE, WATER
+
+
+@kernel
+def take_off(ball):
+    """Let the ball fly: the integrator starts anew with a first step. Writes phase, step."""
+    ball['phase'] = FLIGHT
+    ball['step'] = 0.0
+
+
+@kernel
+def begin_sliding(ball):
+    """Let the ball slide on its support. Writes phase."""
+    ball['phase'] = SLIDE
+
+
+@kernel
+def begin_rolling(ball):
+    """Let the ball roll on its support. Writes phase."""
+    ball['phase'] = ROLL
+
+
+@kernel
+def come_to_rest(ball):
+    """Stop the ball where it is. Writes phase, velocity, spin."""
+    ball['phase'] = REST
+    stand_still(ball)
+
+
+@kernel
+def hole_out(ball):
+    """Hole the ball, which rests in the hole. Writes phase."""
+    ball['phase'] = HOLED
+
+
+@kernel
+def sink(ball):
+    """End the ball's path in the water. Writes phase, velocity, spin."""
+    ball['phase'] = WATER
+    stand_still(ball)
+
+
+@kernel
+def leave_bounds(ball):
+    """Lose the ball out of bounds, or below all ground. Writes phase."""
+    ball['phase'] = OUT
+
+
+@kernel
+def put_back(ball):
+    """Put a ball whose shot fails back to where it was struck. Writes phase, motion."""
+    ball['phase'] = FAILED
+    store(ball['position'], load(ball['struck_at']))
+    stand_still(ball)
+
+
+@kernel
+def stand_still(ball):
+    """Take all motion from the ball. Writes velocity, spin."""
+    store(ball['velocity'], ZERO)
+    store(ball['spin'], ZERO)
