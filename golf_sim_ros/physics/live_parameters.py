@@ -4,6 +4,7 @@
 A `World` hands them to `Scene` as fields of these names; its state, journals and replays carry them all.
 """
 from math import isfinite
+from typing import Callable, NamedTuple
 
 MOST_WIND = 100.0  # m/s
 
@@ -18,11 +19,18 @@ def checked_wind(wind):
     return wind
 
 
-LIVE = {'wind': checked_wind}  # what makes a tuple of floats of a value, or raises ValueError
+class Live(NamedTuple):
+    """A live parameter: what makes a tuple of floats of a value, or raises ValueError; and its default."""
+
+    check: Callable
+    default: tuple
+
+
+LIVE = {'wind': Live(checked_wind, (0.0, 0.0, 0.0))}
 
 
 def checked_live(effect, value):
     """Tuple of floats of a `value` for that `effect`; ValueError where there is none to set, or not this."""
     if effect not in LIVE:
         raise ValueError(f'effect {effect!r} has nothing that can be set; those that do: {", ".join(LIVE)}')
-    return LIVE[effect](value)
+    return LIVE[effect].check(value)

@@ -79,7 +79,8 @@ class World:
         self.time = 0.0
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
         self._preset, self._accuracy = preset(accuracy), accuracy
-        self._live = {'wind': checked_live('wind', wind)}
+        self._live = {effect: live.default for effect, live in LIVE.items()}
+        self._live['wind'] = checked_live('wind', wind)
         self._labels = reporting.Labels(self.names, model_.material_names(course), course.hole)
         self._log, self._events, self._now = new_log(64 + 16 * len(self.names)), [], 0.0
         self.failures, self.last_failure = 0, ''  # of balls that could not go on: how many, and why
@@ -471,8 +472,8 @@ class World:
         """
         if state['accuracy'] != self.accuracy:
             self.accuracy = state['accuracy']
-        for effect in LIVE:
-            self.set_live(effect, state[effect])
+        for effect, live in LIVE.items():  # what a recording does not know yet was at its default
+            self.set_live(effect, state.get(effect, live.default))
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
         self._forget_tree()

@@ -16,7 +16,7 @@ from .journal import standing
 from .json_format import DIGITS, collision_text, plain, result_text
 
 INPUTS = ('strike', 'place', 'reset', 'accuracy', *LIVE)
-STATE = ('time', 'clock', 'accuracy', 'balls', *LIVE)
+STATE = ('time', 'clock', 'accuracy', 'balls')
 LONGEST = 1000.0  # s; every shot is over long before
 RUNS = 5  # of which the fastest counts
 MANY = {'position': 'positions', 'velocity': 'velocities', 'spin': 'spins'}
@@ -146,7 +146,8 @@ def rerun(world, shot, tick):
 
 def begin(world, strike):
     """Go back to where a recorded strike was made, and make it."""
-    world.restore({name: strike[name] for name in STATE})
+    world.restore({**{name: strike[name] for name in STATE},
+                   **{effect: strike[effect] for effect in LIVE if effect in strike}})
     world.strike(strike['ball'], strike['velocity'], strike['spin'])
 
 
