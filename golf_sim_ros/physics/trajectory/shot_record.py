@@ -12,7 +12,7 @@ NOT_FINITE, TOO_MUCH_WORK = 1, 2  # why a shot fails
 # burst beyond that, which drains at that rate. In `make hard` the burst comes to some 350; at `reference` a
 # ball that skims on turf which never stops to throw it up takes 37 000 bounces within a second or two.
 SUSTAINED_WORK = 20_000.0
-MOST_WORK = 200_000
+MOST_WORK = 100_000
 APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
 
 
