@@ -18,6 +18,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 DEADLINE = 300.0  # s: a first start compiles, on a machine that may have other things to do
+RESEND = 20.0  # s without an answer of a service
 READY = 'ready; to strike'  # in the log of a sim that listens
 LASTING = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -111,13 +112,23 @@ class Client:
         return publisher
 
     def call(self, kind, service, request):
-        """The response of `service` to `request`."""
+        """The response of `service` to `request`, which is sent again while no answer comes.
+
+        A service may be found before it has found who asks: then its answer is lost.
+        """
         client = self.node.create_client(kind, service)
         assert client.wait_for_service(DEADLINE), f'nobody offers {service}'
-        future = client.call_async(request)
-        wait_until(future.done, f'{service} answered')
+        futures = []
+
+        def answered():
+            if time.monotonic() > due[0]:
+                futures.append(client.call_async(request))
+                due[0] = time.monotonic() + RESEND
+            return [future for future in futures if future.done()]
+        due = [0.0]
+        first, *_ = wait_until(answered, f'{service} answered')
         self.node.destroy_client(client)
-        return future.result()
+        return first.result()
 
     def close(self):
         self.executor.shutdown()
