@@ -134,12 +134,12 @@ def within_contact_reach(ball):
 
 
 @ball_interactions.first_ball_contact.register(MultiBallWorkspace)
-def _meeting(work, balls, i, radius, now):
+def _first_ball_contact(work, balls, i, radius, now):
     return first_ball_impact(work, balls, i, radius, now)
 
 
 @ball_interactions.interrupt_segments.register(MultiBallWorkspace)
-def _stand_in_the_way(work, balls, i, radius, now):
+def _interrupt_segments(work, balls, i, radius, now):
     interrupt_segments_at(work, balls, i, radius, now)
 
 

@@ -24,7 +24,7 @@ LEAF_MARGIN = 1e-3  # m around the box of a time-stepped ball, which seldom goes
 
 
 @ball_interactions.prepare_broad_phase.register(MultiBallWorkspace)
-def _prepare(work, balls, radius):
+def _prepare_broad_phase(work, balls, radius):
     work.count[ASLEEP] = 0
     for i in range(len(balls)):
         if balls[i]['sleeps_on_ball']:
@@ -159,7 +159,7 @@ def partition(order, balls, first, last, middle):
 
 
 @ball_interactions.update_tree.register(MultiBallWorkspace)
-def _note(work, balls, i, radius):
+def _update_tree(work, balls, i, radius):
     update_leaf(work, balls, i, radius)
 
 

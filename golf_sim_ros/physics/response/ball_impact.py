@@ -23,7 +23,7 @@ LEAST_LOGGED_APPROACH = 0.1  # m/s of approach: slower impacts are neither logge
 
 
 @ball_interactions.resolve_ball_impact.register(MultiBallWorkspace)
-def _bump(work, land, balls, i, now, log):
+def _resolve_ball_impact(work, land, balls, i, now, log):
     collide_balls(land, balls, i, now, work, log)
 
 
@@ -82,7 +82,7 @@ def resolve_contact_set(land, balls, now, work, first, log):
 
 
 @ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
-def _tell_bumps(work, balls, now, log):
+def _log_ball_impacts(work, balls, now, log):
     for n in range(work.count[CONTACTS]):
         row = work.contacts[n]
         if row['b'] >= 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:

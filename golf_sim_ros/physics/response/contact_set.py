@@ -95,7 +95,7 @@ def add_contact(work, a, b, part, normal):
 
 
 @ball_interactions.collect_ball_contacts.register(MultiBallWorkspace)
-def _gather_balls(work, land, balls, i, now):
+def _collect_ball_contacts(work, land, balls, i, now):
     k = work.involved_index[i]
     radius = land.ball.radius
     here = load(balls[i]['position'])

@@ -98,7 +98,7 @@ def touches_ball(balls, work, i, radius, now):
 
 
 @ball_interactions.step_together.register(MultiBallWorkspace)
-def _lean(work, land, balls, i, now):
+def _step_together(work, land, balls, i, now):
     if balls[i]['time_stepping']:
         if is_step_time(now):
             solve_time_step(land, balls, now, work)
@@ -110,7 +110,7 @@ def _lean(work, land, balls, i, now):
 
 
 @ball_interactions.wake.register(MultiBallWorkspace)
-def _rouse(work, balls, radius, now):
+def _wake(work, balls, radius, now):
     if not work.count[ASLEEP]:
         return
     for k in range(work.count[INVOLVED]):

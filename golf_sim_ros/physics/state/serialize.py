@@ -12,7 +12,7 @@ OF_TICK = BALL.names[:3]  # fields that a tick writes of a moving ball; all othe
 # The other fields that matter of a ball at rest: the rest is written when it sets off.
 STANDING = ('phase', 'support', 'material', 'normal', 'micro_bounce_end', 'micro_bounce_load',
             'micro_bounce_air', 'sleeps_on_ball', 'strokes')
-PRESSED = ('stored_count', 'stored_partners', 'stored_impulses')  # only of a time-stepped ball
+STORED = ('stored_count', 'stored_partners', 'stored_impulses')  # only of a time-stepped ball
 
 
 def plain(ball):
@@ -29,7 +29,7 @@ def plain_of_segment(ball):
     """Part of `plain` that lasts as long as the ball's segment."""
     names = BALL.names[len(OF_TICK):] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
     if not ball['time_stepping']:
-        names = [name for name in names if name not in PRESSED]
+        names = [name for name in names if name not in STORED]
     return {name: ball[name].tolist() for name in names}
 
 
