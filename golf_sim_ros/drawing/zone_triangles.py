@@ -95,7 +95,11 @@ def cells(heights, origin, spacing):
     ny, nx = heights.shape
     stride = max(1, ceil(sqrt((ny - 1) * (nx - 1) / MOST_CELLS)))
     rows, columns = (np.unique([*range(0, n, stride), n - 1]) for n in (ny, nx))
-    x, y = np.meshgrid(origin[0] + columns * spacing, origin[1] + rows * spacing)
-    grid = np.stack((x, y, heights[np.ix_(rows, columns)]), -1)
+    return sheet(origin[0] + columns * spacing, origin[1] + rows * spacing, heights[np.ix_(rows, columns)])
+
+
+def sheet(x, y, heights):
+    """Triangles (n, 3, 3) of `heights` at `x`, `y`: two for each cell between them."""
+    grid = np.stack((*np.meshgrid(x, y), heights), -1)
     a, b, c, d = grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]
     return np.stack((np.stack((a, b, c), 2), np.stack((a, c, d), 2)), 2).reshape(-1, 3, 3)

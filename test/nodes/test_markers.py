@@ -12,10 +12,12 @@ from golf_sim_ros.course import load_course
 from golf_sim_ros.drawing.polygon_triangles import triangles
 from golf_sim_ros.drawing.zone_triangles import holds
 from golf_sim_ros.nodes.conversions import header
-from golf_sim_ros.nodes.markers.course_markers import HOLE_DIAMETER, MARGIN, course_markers, outskirts
+from golf_sim_ros.nodes.markers.course_markers import (HOLE_DIAMETER, MARGIN, course_markers, outskirts,
+                                                       surface)
 from golf_sim_ros.nodes.markers.play_markers import CONTACTS, Scene, TRAIL, Trail
 from golf_sim_ros.physics import (Course, Cylinder, Heightmap, Material, Patch, Plane, Sphere, Water, World,
                                   ground_height)
+from golf_sim_ros.physics import geometry
 from golf_sim_ros.physics.geometry.cup import DEPTH
 
 GRASS, SAND = Material('grass', color=(0.1, 0.5, 0.1)), Material('sand', color=(0.9, 0.8, 0.6))
@@ -259,3 +261,14 @@ def test_only_the_last_contacts_are_shown(world):
     for i in range(CONTACTS + 5):
         scene.contacts.append((float(i), 0.0, 0.0))
     assert [point.x for point in scene.hits().points] == [float(i) for i in range(5, CONTACTS + 5)]
+
+
+def test_a_kind_of_ground_without_a_function_of_its_own_is_shown_by_its_heights():
+    patch = Patch((1.0, 2.0, 0.5), (-0.2, 0.1, 1.0), 0.3, 4.0, 2.0, GRASS)
+    low, high = geometry.extent(patch)
+    (material, shown), = surface.dispatch(object)(patch, Course((Plane(), patch)), 0)
+    assert material == GRASS
+    x, y, z = shown.reshape(-1, 3).T
+    np.testing.assert_allclose(z, 0.5 + 0.2 * (x - 1.0) - 0.1 * (y - 2.0), atol=1e-9)
+    assert low[0] <= x.min() and x.max() <= high[0] and low[1] <= y.min() and y.max() <= high[1]
+    assert total(shown) == pytest.approx(4.0 * 2.0, rel=0.15)  # its edges are those of the grid

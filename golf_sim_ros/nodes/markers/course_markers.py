@@ -8,8 +8,9 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
 from ...drawing.polygon_triangles import triangles
-from ...drawing.zone_triangles import cells, curved, flat
-from ...physics import ground_height
+from ...drawing.relief import relief
+from ...drawing.zone_triangles import cells, curved, flat, sheet
+from ...physics import geometry, ground_height
 from ...physics.geometry.cup import DEPTH, RADIUS
 from ...physics.geometry.heightmap import Heightmap, corners as corners_of_map
 from ...physics.geometry.mesh import Mesh
@@ -24,6 +25,7 @@ FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the stick
 TEE_MARKERS = 4.0  # m from one to the other
 UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
 BLACK, WHITE, RED = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.85, 0.1, 0.1)
+GRID = 33  # heights a side of ground that is shown by its heights
 BLUE, CLEAR = (0.15, 0.4, 0.75), 0.6  # water, and how much of it is seen
 
 
@@ -50,8 +52,15 @@ def ground_marker(number, material, corners):
 
 @singledispatch
 def surface(shape, course, number):
-    """Materials, and triangles of three (x, y, z) of each, that show entry `number` of the ground."""
-    raise TypeError(f'nothing is known about drawing a {type(shape).__name__}')
+    """Materials, and triangles of three (x, y, z) of each, that show entry `number` of the ground.
+
+    A kind of ground that has no function of its own here is shown by its heights on a grid.
+    """
+    low, high = geometry.extent(shape)
+    x, y = (np.linspace(low[axis], high[axis], GRID) for axis in (0, 1))
+    heights, _ = relief(course._replace(ground=(shape,), hole=None, zones=()), x, y[:, np.newaxis])
+    corners = sheet(x, y, heights)
+    return curved(corners[np.isfinite(corners).all((1, 2))], shape.material, course.zones)
 
 
 @surface.register
@@ -134,7 +143,9 @@ def extent(shape):
         return used.min(0), used.max(0)
     if isinstance(shape, Heightmap):
         return corners_of_map(shape)
-    return rectangle(shape) if isinstance(shape, Patch) else sum(shape.cut, ())
+    if isinstance(shape, Plane):
+        return sum(shape.cut, ())
+    return rectangle(shape) if isinstance(shape, Patch) else geometry.extent(shape)
 
 
 def tee(course):

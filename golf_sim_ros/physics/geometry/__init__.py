@@ -60,6 +60,16 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
                   float(max((high for _, high in heights), default=0.0)))
 
 
+def extent(shape):
+    """Corners (x, y) of the rectangle around the outlines of `shape` in plan."""
+    kind = next(kind for kind in KINDS if isinstance(shape, kind.SHAPES))
+    places = [corner for outline in kind.plan(shape) for corner in (
+        [(outline.x - outline.radius, outline.y - outline.radius),
+         (outline.x + outline.radius, outline.y + outline.radius)]
+        if isinstance(outline, Circle) else outline)]
+    return np.min(places, 0), np.max(places, 0)
+
+
 def _borders(outlines):
     rows = []
     for outline in outlines:
