@@ -60,7 +60,7 @@ def told(tmp_path_factory):
         (copy / path).write_text(content, encoding='utf-8')
     scene = copy / 'golf_sim_ros' / 'physics' / 'scene'
     insert(scene / 'course_record.py', '    air: Air', '    rain: float = 0.0')
-    insert(scene / 'presets.py', "    'reference'", re.search(r"^    'rough'.*$", TEXT, re.MULTILINE)[0])
+    insert(scene / 'presets.py', 'ACCURACY = {', re.search(r"^    'rough'.*$", TEXT, re.MULTILINE)[0])
     run = subprocess.run([sys.executable, '-c', PLAY], cwd=copy, capture_output=True, text=True,
                          env={**os.environ, 'PYTHONPATH': str(copy)})
     assert run.returncode == 0, run.stderr

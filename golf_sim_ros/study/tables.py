@@ -60,13 +60,12 @@ def preset_table(rows):
     """Markdown table of the presets: promise, worst of the study, time."""
     lines = ['| preset | promises, first touch and rest | worst here | time of a shot | for |',
              '|---|---|---|---|---|']
-    use = {'sketch': 'watching many shots at once', 'standard': 'playing', 'reference': 'research'}
     for name, preset in ACCURACY.items():
         own = [row for row in rows if row.method == 'preset' and row.setting == name]
         touch, rest = (np.nanmax([getattr(r, e) for r in own]) for e in ('touch_error', 'rest_error'))
         times = [row.time * 1e6 for row in own]
         lines.append(f'| {name} | {preset.touch:g} m, {preset.rest:g} m | {touch:.1e} m, {rest:.1e} m '
-                     f'| {min(times):.0f} to {max(times):.0f} us | {use[name]} |')
+                     f'| {min(times):.0f} to {max(times):.0f} us | {preset.use} |')
     return '\n'.join(lines)
 
 

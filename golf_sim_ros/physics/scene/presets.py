@@ -11,19 +11,23 @@ class Preset(NamedTuple):
     """Integrator with its tolerance, limits of the contact laws, and the error that they promise.
 
     ``touch`` and ``rest`` [m]: bounds on the error of the place of first contact, and of rest on level
-    ground, for shots of up to 90 m/s in still air.
+    ground, for shots of up to 90 m/s in still air. ``use``: what it is for, in a few words.
     """
 
     method: NamedTuple
     limits: Limits
     touch: float = inf
     rest: float = inf
+    use: str = ''
 
 
 ACCURACY = {
-    'sketch': Preset(DormandPrince(5e-3), Limits(settle=0.1, path=1e-6), touch=0.5, rest=1.0),
-    'standard': Preset(DormandPrince(2.3e-4), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2),
-    'reference': Preset(DormandPrince(1e-10), Limits(settle=1e-3, path=1e-10), touch=1e-6, rest=1e-4),
+    'sketch': Preset(DormandPrince(5e-3), Limits(settle=0.1, path=1e-6), touch=0.5, rest=1.0,
+                     use='watching many shots at once'),
+    'standard': Preset(DormandPrince(2.3e-4), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2,
+                       use='playing'),
+    'reference': Preset(DormandPrince(1e-10), Limits(settle=1e-3, path=1e-10), touch=1e-6, rest=1e-4,
+                        use='research'),
 }
 
 
