@@ -26,7 +26,7 @@ from .closest_point import curvatures, closest_point, held, pulls
 from .plane_patch import SAME_HEIGHT
 
 WIDE = 10.0  # 1/m: hollows of less curvature touch a ball of 5 cm at one point only, with room to spare
-SEVERAL = 32  # effort of a cell where the distance may have several minima
+SEVERAL = 256  # effort of a cell where the distance may have several minima
 ON_SEAM = 1e-9  # rad: above a seam but for this angle, a ball is above both cells
 
 
