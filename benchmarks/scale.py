@@ -6,7 +6,8 @@ from statistics import median
 from tempfile import TemporaryDirectory
 
 from engines import poured, STEP
-from golf_sim_ros.course.mesh_file import STL_HEAD, STL_TRIANGLE, read_mesh
+from golf_sim_ros.course.mesh_file import read_mesh
+from golf_sim_ros.course.stl_file import STL_HEAD, STL_TRIANGLE
 from golf_sim_ros.physics import Course, Material, Plane, Restitution, World
 from golf_sim_ros.study.scenes import hills
 import numpy as np

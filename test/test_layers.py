@@ -2,6 +2,8 @@
 """Imports point one way only, and the physics needs no ROS."""
 
 import ast
+from importlib import import_module
+from importlib.util import find_spec
 import os
 from pathlib import Path
 import subprocess
@@ -86,3 +88,15 @@ def defined(path):
             yield node.name
         for target in node.targets if isinstance(node, ast.Assign) else ():
             yield from (name.id for name in ast.walk(target) if isinstance(name, ast.Name))
+
+
+@pytest.mark.parametrize('path', [path for folder in ('benchmarks', 'tools', 'examples')
+                                  for path in sorted((ROOT / folder).rglob('*.py'))], ids=lambda path: path.name)
+def test_what_a_script_imports_of_the_package_is_there(path):
+    for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
+        if isinstance(node, ast.ImportFrom) and (node.module or '').startswith('golf_sim_ros'):
+            if node.module.startswith(('golf_sim_ros.nodes', 'golf_sim_ros.sim_node', 'golf_sim_ros.cli')):
+                pytest.importorskip('rclpy')
+            found = import_module(node.module)
+            assert [alias.name for alias in node.names if not hasattr(found, alias.name)
+                    and not find_spec(f'{node.module}.{alias.name}')] == []
