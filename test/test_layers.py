@@ -90,8 +90,11 @@ def defined(path):
             yield from (name.id for name in ast.walk(target) if isinstance(name, ast.Name))
 
 
-@pytest.mark.parametrize('path', [path for folder in ('benchmarks', 'tools', 'examples')
-                                  for path in sorted((ROOT / folder).rglob('*.py'))], ids=lambda path: path.name)
+SCRIPTS = [path for folder in ('benchmarks', 'tools', 'examples')
+           for path in sorted((ROOT / folder).rglob('*.py'))]
+
+
+@pytest.mark.parametrize('path', SCRIPTS, ids=lambda path: path.name)
 def test_what_a_script_imports_of_the_package_is_there(path):
     for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
         if isinstance(node, ast.ImportFrom) and (node.module or '').startswith('golf_sim_ros'):
