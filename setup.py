@@ -1,11 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """How pip and colcon install golf_sim_ros."""
 
 from pathlib import Path
 
 from setuptools import find_packages, setup
 
-HERE = Path(__file__).resolve().parent    # also where colcon runs a symlink to this file
+HERE = Path(__file__).resolve().parent  # also where colcon runs a symlink to this file
 PACKAGE = 'golf_sim_ros'
 SHARE = f'share/{PACKAGE}'
 EXECUTABLES = {
@@ -20,17 +33,34 @@ EXECUTABLES = {
 }
 
 # ROS 2 as wheels from PyPI, for machines without it: Linux x86-64 only.
-WHEELS = ['rclpy', 'rmw-fastrtps-cpp', 'rcl-interfaces', 'std-msgs', 'std-srvs', 'geometry-msgs',
-          'visualization-msgs', 'diagnostic-msgs', 'rosgraph-msgs']
+WHEELS = [
+    'rclpy',
+    'rmw-fastrtps-cpp',
+    'rcl-interfaces',
+    'std-msgs',
+    'std-srvs',
+    'geometry-msgs',
+    'visualization-msgs',
+    'diagnostic-msgs',
+    'rosgraph-msgs',
+]
 
-# Without numba all works, many balls and batches slowly: it is asked for only where it comes as a wheel.
-NUMBA = 'numba; python_version < "3.15" and (' + ' or '.join(
-    f'platform_machine == "{machine}"' for machine in ('x86_64', 'AMD64', 'aarch64', 'arm64')) + ')'
+# Without numba all works, many balls and batches slowly: it is asked for only where it comes as a
+# wheel.
+NUMBA = (
+    'numba; python_version < "3.15" and ('
+    + ' or '.join(
+        f'platform_machine == "{machine}"' for machine in ('x86_64', 'AMD64', 'aarch64', 'arm64')
+    )
+    + ')'
+)
 
 
 def folders(top):
     """Entries for data_files that copy a folder with all that is in it."""
-    inside = [path for path in sorted(Path(top).rglob('*')) if path.is_file() and path.suffix != '.pyc']
+    inside = [
+        path for path in sorted(Path(top).rglob('*')) if path.is_file() and path.suffix != '.pyc'
+    ]
     return [(f'{SHARE}/{path.parent.as_posix()}', [path.as_posix()]) for path in inside]
 
 
@@ -50,9 +80,13 @@ setup(
         (SHARE, ['package.xml']),
         # pip puts console_scripts into bin/, where `ros2 run` does not look: it finds these.
         (f'lib/{PACKAGE}', [f'scripts/{name}' for name in EXECUTABLES]),
-        *folders('config'), *folders('launch'), *folders('rviz'),
+        *folders('config'),
+        *folders('launch'),
+        *folders('rviz'),
     ],
-    entry_points={'console_scripts': [f'{name} = {target}' for name, target in EXECUTABLES.items()]},
+    entry_points={
+        'console_scripts': [f'{name} = {target}' for name, target in EXECUTABLES.items()]
+    },
     install_requires=['numpy', 'pyyaml'],
     extras_require={
         'ros': [f'ros-jazzy-{name}' for name in WHEELS],
@@ -66,8 +100,18 @@ setup(
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'docs': ['sphinx>=7.2', 'myst-parser', 'sphinx-rtd-theme'],
         'lint': ['flake8', 'ruff'],
-        'test': ['pytest', 'pytest-xdist', 'hypothesis', 'scipy', 'flake8', 'import-linter', 'rosbags>=0.10',
-                 'trimesh', 'rasterio', 'dask[distributed]'],
+        'test': [
+            'pytest',
+            'pytest-xdist',
+            'hypothesis',
+            'scipy',
+            'flake8',
+            'import-linter',
+            'rosbags>=0.10',
+            'trimesh',
+            'rasterio',
+            'dask[distributed]',
+        ],
     },
     zip_safe=False,
 )

@@ -1,13 +1,30 @@
-# SPDX-License-Identifier: Apache-2.0
-"""MuJoCo and PyBullet on the same scenes, at 250 steps a second; skipped where they are not installed.
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
 
-So that nothing of theirs is held back: no damping of the air (PyBullet's linear and angular damping 0), no
-spin or rolling friction, Coulomb friction and restitution as ours as far as they can. PyBullet takes both as
-they are, of a pair by multiplication, with its 50 iterations. MuJoCo has springs in place of restitution:
-`solref` is its own time constant and the damping ratio of that restitution, but no less than it can take;
-friction of a pair is the greater. None of the two lets anything sleep here. Ours does: what is calm in a pile
-sleeps, so the pour is timed while the balls fall and heap up, and not after.
+"""MuJoCo and PyBullet on the same scenes, at 250 steps a second.
+
+Skipped where they are not installed.
+
+So that nothing of theirs is held back: no damping of the air (PyBullet's linear and angular
+damping 0), no spin or rolling friction, Coulomb friction and restitution as ours as far as they
+can. PyBullet takes both as they are, of a pair by multiplication, with its 50 iterations. MuJoCo
+has springs in place of restitution: `solref` is its own time constant and the damping ratio of
+that restitution, but no less than it can take; friction of a pair is the greater. None of the two
+lets anything sleep here. Ours does: what is calm in a pile sleeps, so the pour is timed while the
+balls fall and heap up, and not after.
 """
+
 from math import log, pi, sqrt
 import tempfile
 
@@ -42,7 +59,9 @@ def installed():
             engine.load()
             found[name] = engine
         except ImportError:
-            print(f'{name}: not timed, not installed: pip install "golf_sim_ros[bench]"', flush=True)
+            print(
+                f'{name}: not timed, not installed: pip install "golf_sim_ros[bench]"', flush=True
+            )
     return found
 
 
@@ -61,8 +80,13 @@ def pours(engines, count):
         scene.balls(heap(count))
         scene.build()
         time = clocked(lambda: scene.advance(round(POUR / STEP)))
-        yield Row(f'{count} balls poured, over {name}', time / ours, least=5.0, times=(ours, time),
-                  note=f'its overlap {1e3 * overlap(scene.places()):.2g} mm')
+        yield Row(
+            f'{count} balls poured, over {name}',
+            time / ours,
+            least=5.0,
+            times=(ours, time),
+            note=f'its overlap {1e3 * overlap(scene.places()):.2g} mm',
+        )
 
 
 def rolls(engines):
@@ -71,8 +95,8 @@ def rolls(engines):
     stage = Stage(game, 'standard')
     stage()
     ours = clocked(lambda: stage(20)) / 20
-    mesh, = game.course.ground
-    (_, velocity, _), = game.strikes
+    (mesh,) = game.course.ground
+    ((_, velocity, _),) = game.strikes
     for name, engine in engines.items():
         scene = engine()
         scene.terrain(mesh.vertices, mesh.faces)
@@ -80,14 +104,25 @@ def rolls(engines):
         scene.balls_start(velocity)
         scene.build()
         time = clocked(lambda: scene.advance(round(ROLL / STEP)))
-        yield Row(f'bouncing and rolling on {TRIANGLES:,} triangles, over {name}', time / ours, least=10.0,
-                  times=(ours, time))
+        yield Row(
+            f'bouncing and rolling on {TRIANGLES:,} triangles, over {name}',
+            time / ours,
+            least=10.0,
+            times=(ours, time),
+        )
 
 
 def poured(count):
     """`World` of balls that are about to fall into a box."""
-    world = World(Course(box(), tee=(0.0, 500.0), ball=Ball(restitution=RESTITUTION, friction=FRICTION),
-                         effects=('gravity', 'ball_ball')), count)
+    world = World(
+        Course(
+            box(),
+            tee=(0.0, 500.0),
+            ball=Ball(restitution=RESTITUTION, friction=FRICTION),
+            effects=('gravity', 'ball_ball'),
+        ),
+        count,
+    )
     for name, place in zip(world.names, heap(count)):
         world.place(name, place, velocity=(0.0, 0.0, 0.0))
     return world
@@ -96,8 +131,10 @@ def poured(count):
 def box():
     """Floor and four walls."""
     floor = Material('floor', Restitution(RESTITUTION), 0.0, FRICTION, FRICTION, 0.0)
-    walls = [Patch((0.5 * SIDE * x, 0.5 * SIDE * y, 2.0), (-x, -y, 0), 0.0, SIDE + 0.1, 4.0, floor)
-             for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+    walls = [
+        Patch((0.5 * SIDE * x, 0.5 * SIDE * y, 2.0), (-x, -y, 0), 0.0, SIDE + 0.1, 4.0, floor)
+        for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))
+    ]
     return (Plane(material=floor), *walls)
 
 
@@ -112,7 +149,9 @@ def overlap(places):
     """How deep [m] the two balls that overlap most do."""
     deepest = 0.0
     for i in range(len(places) - 1):
-        deepest = max(deepest, 2 * RADIUS - np.linalg.norm(places[i + 1:] - places[i], axis=1).min())
+        deepest = max(
+            deepest, 2 * RADIUS - np.linalg.norm(places[i + 1 :] - places[i], axis=1).min()
+        )
     return deepest
 
 
@@ -123,20 +162,32 @@ class PyBullet:
     def load():
         """The module."""
         import pybullet
+
         return pybullet
 
     def __init__(self):
         from pybullet_utils.bullet_client import BulletClient
+
         self.bullet, self.p = self.load(), BulletClient(self.load().DIRECT)
         self.p.setGravity(0, 0, -9.80665)
         self.p.setTimeStep(STEP)
         self.bodies = []
 
-    def body(self, shape, mass, place=(0, 0, 0), turn=(0, 0, 0, 1), material=(RESTITUTION, FRICTION)):
+    def body(
+        self, shape, mass, place=(0, 0, 0), turn=(0, 0, 0, 1), material=(RESTITUTION, FRICTION)
+    ):
         """Add a body; of a pair restitution and friction are multiplied, so each has the root."""
         body = self.p.createMultiBody(mass, shape, -1, list(map(float, place)), turn)
-        self.p.changeDynamics(body, -1, restitution=sqrt(material[0]), lateralFriction=sqrt(material[1]),
-                              rollingFriction=0, spinningFriction=0, linearDamping=0, angularDamping=0)
+        self.p.changeDynamics(
+            body,
+            -1,
+            restitution=sqrt(material[0]),
+            lateralFriction=sqrt(material[1]),
+            rollingFriction=0,
+            spinningFriction=0,
+            linearDamping=0,
+            angularDamping=0,
+        )
         return body
 
     def box(self):
@@ -152,8 +203,11 @@ class PyBullet:
             file.writelines(f'v {x} {y} {z}\n' for x, y, z in vertices)
             file.writelines(f'f {a} {b} {c}\n' for a, b, c in np.asarray(faces) + 1)
             file.flush()
-            shape = self.p.createCollisionShape(self.bullet.GEOM_MESH, fileName=file.name,
-                                                flags=self.bullet.GEOM_FORCE_CONCAVE_TRIMESH)
+            shape = self.p.createCollisionShape(
+                self.bullet.GEOM_MESH,
+                fileName=file.name,
+                flags=self.bullet.GEOM_FORCE_CONCAVE_TRIMESH,
+            )
         self.body(shape, 0, material=(0.8, 0.3))
 
     def balls(self, places):
@@ -186,6 +240,7 @@ class MuJoCo:
     def load():
         """The module."""
         import mujoco
+
         return mujoco
 
     def __init__(self):
@@ -196,8 +251,10 @@ class MuJoCo:
         """Floor and walls."""
         for x, y in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)):
             axis = f'{-x} {-y} 0' if x or y else '0 0 1'
-            self.world.append(f'<geom type="plane" size="5 5 1" pos="{0.5 * SIDE * x} {0.5 * SIDE * y} 0" '
-                              f'zaxis="{axis}"/>')
+            self.world.append(
+                f'<geom type="plane" size="5 5 1" pos="{0.5 * SIDE * x} {0.5 * SIDE * y} 0" '
+                f'zaxis="{axis}"/>'
+            )
 
     def terrain(self, vertices, faces):
         """Heights, which are as many triangles: of a mesh MuJoCo takes the convex hull only."""
@@ -206,15 +263,19 @@ class MuJoCo:
         half, low, high = np.abs(vertices).max(), z.min(), z.max()
         data = np.array([across, across], np.int32).tobytes() + z.astype(np.float32).tobytes()
         self.files['terrain.bin'] = data
-        self.asset = (f'<asset><hfield name="terrain" file="terrain.bin" '
-                      f'size="{half} {half} {high - low} 1"/></asset>')
+        self.asset = (
+            f'<asset><hfield name="terrain" file="terrain.bin" '
+            f'size="{half} {half} {high - low} 1"/></asset>'
+        )
         self.world.append(f'<geom type="hfield" hfield="terrain" pos="0 0 {low}"/>')
         self.restitution = 0.8
 
     def balls(self, places):
         """Add balls."""
-        self.world += [f'<body pos="{x} {y} {z}"><freejoint/><geom size="{RADIUS}" mass="{MASS}"/></body>'
-                       for x, y, z in places]
+        self.world += [
+            f'<body pos="{x} {y} {z}"><freejoint/><geom size="{RADIUS}" mass="{MASS}"/></body>'
+            for x, y, z in places
+        ]
 
     def balls_start(self, velocity):
         """Set the balls off."""
@@ -225,9 +286,11 @@ class MuJoCo:
         damping = -log(self.restitution)
         ratio = damping / sqrt(pi * pi + damping * damping)
         spring = f'{SPRING} {max(ratio, LEAST_RATIO)}'
-        xml = (f'<mujoco><option timestep="{STEP}" gravity="0 0 -9.80665"/><size memory="1G"/>'
-               f'<default><geom friction="{FRICTION} 0 0" solref="{spring}"/></default>'
-               f'{self.asset}<worldbody>{"".join(self.world)}</worldbody></mujoco>')
+        xml = (
+            f'<mujoco><option timestep="{STEP}" gravity="0 0 -9.80665"/><size memory="1G"/>'
+            f'<default><geom friction="{FRICTION} 0 0" solref="{spring}"/></default>'
+            f'{self.asset}<worldbody>{"".join(self.world)}</worldbody></mujoco>'
+        )
         self.model = self.load().MjModel.from_xml_string(xml, self.files)
         self.data = self.load().MjData(self.model)
         self.data.qvel[:3] = self.velocity

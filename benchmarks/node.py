@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """`sim_node` in a process of its own, balls in flight all the time: its share of a core, and its pace.
 
-Somebody listens to the balls' poses, for what nobody listens to is not made; but does not read them, or
-reading would take as much of the machine as simulating.
+Somebody listens to the balls' poses, for what nobody listens to is not made; but does not read
+them, or reading would take as much of the machine as simulating.
 """
+
 import json
 import os
 from pathlib import Path
@@ -23,7 +37,8 @@ tee: [0, 0]
 ground:
   - {shape: plane, point: [0, 0, 0], normal: [0, 0, 1], material: sand}
 """  # a ball ends where it lands, so that one that is struck again at once is always in flight
-AHEAD, UP, HIGHER = 10.0, 40.0, 30.0  # m/s: some of many balls higher than others, so that they land apart
+# m/s: some of many balls higher than others, so that they land apart
+AHEAD, UP, HIGHER = 10.0, 40.0, 30.0
 
 
 def rows(quick):
@@ -34,11 +49,18 @@ def rows(quick):
         print('sim_node: not timed, there is no ROS', flush=True)
         return
     seconds = QUICK_SECONDS if quick else SECONDS
-    yield from figures('sim_node at 1000 Hz, told at 50 Hz, one ball in flight', seconds, 1, rate=1000.0)
+    yield from figures(
+        'sim_node at 1000 Hz, told at 50 Hz, one ball in flight', seconds, 1, rate=1000.0
+    )
     yield from figures('sim_node at its default rates, one ball in flight', seconds, 1, most=12.0)
     yield from figures('sim_node at its default rates, 100 balls in flight', seconds, 100)
-    yield from figures('sim_node in plain Python, default rates, one ball in flight', seconds, 1, most=25.0,
-                       engine='python')
+    yield from figures(
+        'sim_node in plain Python, default rates, one ball in flight',
+        seconds,
+        1,
+        most=25.0,
+        engine='python',
+    )
 
 
 def figures(name, seconds, balls, most=float('inf'), **parameters):
@@ -47,12 +69,21 @@ def figures(name, seconds, balls, most=float('inf'), **parameters):
         course = Path(folder, 'beach.yaml')
         course.write_text(COURSE)
         names = ['ball'] if balls == 1 else [f'ball_{i}' for i in range(balls)]
-        given = {'course': course, 'balls': str(names).replace("'", ''), 'engine': 'compiled', **parameters}
+        given = {
+            'course': course,
+            'balls': str(names).replace("'", ''),
+            'engine': 'compiled',
+            **parameters,
+        }
         words = [word for key, value in given.items() for word in ('-p', f'{key}:={value}')]
         environment = {**os.environ, 'ROS_DOMAIN_ID': str(100 + os.getpid() % 100)}
         os.environ['ROS_DOMAIN_ID'] = environment['ROS_DOMAIN_ID']
-        sim = subprocess.Popen([sys.executable, '-m', 'golf_sim_ros.nodes.sim_node', '--ros-args', *words],
-                               env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        sim = subprocess.Popen(
+            [sys.executable, '-m', 'golf_sim_ros.nodes.sim_node', '--ros-args', *words],
+            env=environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         try:
             share, factor, made_up = watched(sim, names, seconds)
         finally:
@@ -67,10 +98,11 @@ def watched(sim, balls, seconds):
     """Share of a core [%] of a process `sim`, mean real-time factor, ticks made up, while its balls fly."""
     from diagnostic_msgs.msg import DiagnosticArray
     from geometry_msgs.msg import PoseStamped, Twist
+    from golf_sim_ros.nodes.lifecycle import EventsExecutor
     import rclpy
     from rclpy.qos import QoSProfile
-    from golf_sim_ros.nodes.lifecycle import EventsExecutor
     from std_msgs.msg import String
+
     rclpy.init()
     node = rclpy.create_node('golfer')
     executor = EventsExecutor()
@@ -89,16 +121,19 @@ def watched(sim, balls, seconds):
     for ball in balls:
         node.create_subscription(PoseStamped, f'{ball}/pose', seen.append, 10, raw=True)
     node.create_subscription(DiagnosticArray, '/diagnostics', note, 10)
-    node.create_subscription(String, 'shot/result', lambda m: strike(json.loads(m.data)['ball']),
-                             QoSProfile(depth=100))
+    node.create_subscription(
+        String, 'shot/result', lambda m: strike(json.loads(m.data)['ball']), QoSProfile(depth=100)
+    )
 
     def spin(until, done=lambda: False):
         while monotonic() < until and not done():
             executor.spin_once(timeout_sec=0.1)
 
     try:
-        spin(monotonic() + PATIENCE,
-             lambda: told and all(club.get_subscription_count() for club in clubs.values()))
+        spin(
+            monotonic() + PATIENCE,
+            lambda: told and all(club.get_subscription_count() for club in clubs.values()),
+        )
         for ball in balls:
             strike(ball)
         spin(monotonic() + 2.0)

@@ -1,7 +1,21 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What an effect costs that is off: drives, against a build of the package without the effect's file."""
+
 import ast
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager, ExitStack
 import os
 from pathlib import Path
 import shutil
@@ -31,28 +45,43 @@ def rows(quick):
 def row(names, effects):
     """`Row`: the share of the time that files of effects cost which are off."""
     with tempfile.TemporaryDirectory() as folder, ExitStack() as open_builds:
-        shutil.copytree(PACKAGE, Path(folder, 'golf_sim_ros'), ignore=shutil.ignore_patterns('__pycache__'))
+        shutil.copytree(
+            PACKAGE, Path(folder, 'golf_sim_ros'), ignore=shutil.ignore_patterns('__pycache__')
+        )
         for name in names:
             take_out(name, Path(folder, 'golf_sim_ros'))
         whole = open_builds.enter_context(build(PACKAGE.parent, effects, folder))
         less = open_builds.enter_context(build(folder, effects, folder))
         codes = [process.stdout.readline() for process in (whole, less)]
-        pairs = [pair for _ in range(ROUNDS // 2)
-                 for pair in (paired(whole, less), paired(less, whole)[::-1])]
+        pairs = [
+            pair
+            for _ in range(ROUNDS // 2)
+            for pair in (paired(whole, less), paired(less, whole)[::-1])
+        ]
     cost = 100.0 * (median(mine / theirs for mine, theirs in pairs) - 1.0)
     title = names[0] if len(names) == 1 else f'{len(names)} laws asked for by name'
     same = codes[0] == codes[1]
-    return Row(f'a drive with {title} off, over a build without the file', 0.0 if same else cost, '% more',
-               most=2.0, times=tuple(map(median, zip(*pairs))),
-               note=f'the same machine code, timed {cost:+.1f} %' if same else 'other machine code')
+    return Row(
+        f'a drive with {title} off, over a build without the file',
+        0.0 if same else cost,
+        '% more',
+        most=2.0,
+        times=tuple(map(median, zip(*pairs))),
+        note=f'the same machine code, timed {cost:+.1f} %' if same else 'other machine code',
+    )
 
 
 @contextmanager
 def build(folder, effects, cache):
     """A process that plays with the package in `folder`."""
     command = [sys.executable, str(Path(__file__).with_name('build.py')), str(folder), effects]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                          env={**os.environ, 'NUMBA_CACHE_DIR': str(cache)}) as process:
+    with subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, 'NUMBA_CACHE_DIR': str(cache)},
+    ) as process:
         yield process
         process.stdin.close()
 
@@ -84,4 +113,5 @@ def take_out(name, package):
 def makes_effect(node):
     """Whether a segment of a file makes it an effect: `record`, or the body of a law."""
     return isinstance(node, ast.FunctionDef) and (
-        node.name == 'record' or any('laws.' in ast.unparse(d) for d in node.decorator_list))
+        node.name == 'record' or any('laws.' in ast.unparse(d) for d in node.decorator_list)
+    )

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What more of everything costs: triangles under a ball, balls that move, balls that fall into a heap."""
+
 from math import cos, log, sin
 from pathlib import Path
 from statistics import median
@@ -27,18 +41,22 @@ def hops(world):
 
 def from_file(course, path):
     """`course`, a mesh, by way of an STL file."""
-    mesh, = course.ground
+    (mesh,) = course.ground
     triangles = np.zeros(len(mesh.faces), STL_TRIANGLE)
     triangles['corners'] = mesh.vertices[mesh.faces]
-    path.write_bytes(bytes(STL_HEAD - 4) + np.uint32(len(triangles)).tobytes() + triangles.tobytes())
+    path.write_bytes(
+        bytes(STL_HEAD - 4) + np.uint32(len(triangles)).tobytes() + triangles.tobytes()
+    )
     vertices, faces, _ = read_mesh(path)
     return course._replace(ground=(mesh._replace(vertices=vertices, faces=faces),))
 
 
 def scattered(count):
     """World of balls that are about to roll, ten metres apart."""
-    world = World(Course((Plane(material=GRASS),), tee=FAR, effects=('gravity', 'ball_ball')), count)
-    side = round(count ** 0.5 + 0.5)
+    world = World(
+        Course((Plane(material=GRASS),), tee=FAR, effects=('gravity', 'ball_ball')), count
+    )
+    side = round(count**0.5 + 0.5)
     for i, name in enumerate(world.names):
         world.place(name, (10.0 * (i % side), -10.0 * (i // side)))
     random = np.random.default_rng(count)
@@ -51,23 +69,45 @@ def rows(quick):
     """`Row` of each."""
     worlds = [World(hills(count), effects=('gravity',)) for count in (1000, 10_000, 100_000)]
     times = [median(clocked(lambda: hops(world)) for _ in range(8)) / HEADINGS for world in worlds]
-    yield Row('3 s of a ball on 100,000 triangles over those on 1,000', times[2] / times[0], most=2.0,
-              times=tuple(times))
+    yield Row(
+        '3 s of a ball on 100,000 triangles over those on 1,000',
+        times[2] / times[0],
+        most=2.0,
+        times=tuple(times),
+    )
     if not quick:
         with TemporaryDirectory() as folder:
-            world = World(from_file(hills(1_000_000), Path(folder) / 'hills.stl'), effects=('gravity',))
+            world = World(
+                from_file(hills(1_000_000), Path(folder) / 'hills.stl'), effects=('gravity',)
+            )
         time = median(clocked(lambda: hops(world)) for _ in range(8)) / HEADINGS
-        yield Row('the same on an STL file of 1,000,000 over 1,000', time / times[0], most=2.0, times=(time,))
+        yield Row(
+            'the same on an STL file of 1,000,000 over 1,000',
+            time / times[0],
+            most=2.0,
+            times=(time,),
+        )
     counts = 10, 100, 1000
     times = []
     for count in counts:
         scattered(count).advance(1.0)  # compiles
-        times.append(median(clocked(lambda: scattered_.advance(1.0)) for scattered_ in
-                            [scattered(count) for _ in range(3)]))
-    yield Row('balls that move: exponent of the cost from 10 to 1,000', log(times[2] / times[0]) / log(100),
-              'power', most=1.15, times=tuple(times))
+        times.append(
+            median(
+                clocked(lambda: scattered_.advance(1.0))
+                for scattered_ in [scattered(count) for _ in range(3)]
+            )
+        )
+    yield Row(
+        'balls that move: exponent of the cost from 10 to 1,000',
+        log(times[2] / times[0]) / log(100),
+        'power',
+        most=1.15,
+        times=tuple(times),
+    )
     if quick:
         return
     world = poured(1000)
     time = clocked(lambda: [world.advance(STEP) for _ in range(2500)])
-    yield Row('10 s of 1,000 balls poured into a box at 250 Hz', 10.0 / time, least=1.0, times=(time,))
+    yield Row(
+        '10 s of 1,000 balls poured into a box at 250 Hz', 10.0 / time, least=1.0, times=(time,)
+    )

@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """How Sphinx makes one book of docs/*.md and the docstrings: `make docs`, and `rosdoc2 build`.
 
-Both copy this folder to another one, add pages of the modules by sphinx-apidoc, and build there. So nothing
-here may depend on where this file lies.
+Both copy this folder to another one, add pages of the modules by sphinx-apidoc, and build there.
+So nothing here may depend on where this file lies.
 """
+
 from pathlib import Path
 import re
 import sys
@@ -11,8 +25,12 @@ from xml.etree import ElementTree
 
 try:
     import golf_sim_ros
-except ImportError:  # rosdoc2 executes this file from a conf.py of its own, which says where this one is
-    executed = re.search(r'^exec\(open\("(.*)"\)', Path(__file__).read_text(encoding='utf-8'), re.MULTILINE)
+except (
+    ImportError
+):  # rosdoc2 executes this file from a conf.py of its own, which says where this one is
+    executed = re.search(
+        r'^exec\(open\("(.*)"\)', Path(__file__).read_text(encoding='utf-8'), re.MULTILINE
+    )
     sys.path.insert(0, str(Path(executed[1]).parents[1]))
     import golf_sim_ros
 from golf_sim_ros.course.package_files import share
@@ -24,7 +42,8 @@ version = release = golf_sim_ros.__version__
 
 extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.napoleon']
 source_suffix = {'.md': 'markdown', '.rst': 'restructuredtext'}
-# What rosdoc2 adds: an index where index.md is, and the texts of the repository's root, to which links lead.
+# What rosdoc2 adds: an index where index.md is, and the texts of the repository's root, to which
+# links lead.
 exclude_patterns = ['index.rst', '__readme_include.rst', 'standards.rst', 'standard_docs']
 myst_heading_anchors = 3
 html_theme = 'sphinx_rtd_theme'
@@ -32,9 +51,24 @@ suppress_warnings = ['ref.python']  # a record that a package passes on is found
 
 # The packages of ROS, of drawing and of speed are not needed to read docstrings.
 autodoc_mock_imports = [
-    'rclpy', 'rcl_interfaces', 'std_msgs', 'std_srvs', 'geometry_msgs', 'visualization_msgs',
-    'diagnostic_msgs', 'rosgraph_msgs', 'builtin_interfaces',
-    'numba', 'llvmlite', 'rosbags', 'trimesh', 'rasterio', 'matplotlib', 'scipy', 'tqdm']
+    'rclpy',
+    'rcl_interfaces',
+    'std_msgs',
+    'std_srvs',
+    'geometry_msgs',
+    'visualization_msgs',
+    'diagnostic_msgs',
+    'rosgraph_msgs',
+    'builtin_interfaces',
+    'numba',
+    'llvmlite',
+    'rosbags',
+    'trimesh',
+    'rasterio',
+    'matplotlib',
+    'scipy',
+    'tqdm',
+]
 autodoc_member_order = 'bysource'
 napoleon_google_docstring = False
 napoleon_use_rtype = False
@@ -42,7 +76,9 @@ napoleon_use_rtype = False
 
 def repository():
     """Address of the repository, as package.xml has it."""
-    urls = {url.get('type'): url.text for url in ElementTree.parse(share('package.xml')).iter('url')}
+    urls = {
+        url.get('type'): url.text for url in ElementTree.parse(share('package.xml')).iter('url')
+    }
     return urls['repository']
 
 

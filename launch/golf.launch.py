@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The simulator, the wind and, if wanted, RViz: ``ros2 launch golf_sim_ros golf.launch.py rviz:=true``.
 
 An argument that is left out is not passed to the nodes, so it never overrides a params file.
@@ -7,7 +20,6 @@ An argument that is left out is not passed to the nodes, so it never overrides a
 from pathlib import Path
 from typing import List
 
-from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
 from launch.substitutions import SubstitutionFailure, TextSubstitution
@@ -15,6 +27,8 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 import yaml
+
+from launch import LaunchDescription
 
 # Arguments that are parameters of the simulator; their defaults are in config/sim.yaml.
 TEXTS = {
@@ -33,11 +47,20 @@ NUMBERS = {
 }
 OTHERS = {
     'publish_clock': ('', 'true: simulated time on /clock, which wind and RViz then follow'),
-    'params_file': ('', 'parameters of simulator and wind, a YAML file; the other arguments override it'),
-    'wind_params_file': ('', 'parameters of the wind generator, a YAML file; it overrides params_file'),
+    'params_file': (
+        '',
+        'parameters of simulator and wind, a YAML file; the other arguments override it',
+    ),
+    'wind_params_file': (
+        '',
+        'parameters of the wind generator, a YAML file; it overrides params_file',
+    ),
     'wind_params': ('', 'the former name of wind_params_file'),
     'namespace': ('', 'namespace of all nodes, so that many games share one network'),
-    'log_level': ('', 'debug, info, warn, error or fatal, or of one logger, as in golf_sim:=debug'),
+    'log_level': (
+        '',
+        'debug, info, warn, error or fatal, or of one logger, as in golf_sim:=debug',
+    ),
     'wind': ('true', 'true or false: whether to start the wind generator'),
     'rviz': ('false', 'true or false: whether to start RViz'),
 }
@@ -47,20 +70,29 @@ UNLESS_GIVEN = '; if left out, what the params file says, else the default of th
 def generate_launch_description():
     """All nodes of one game."""
     parameters = {**TEXTS, **LISTS, **NUMBERS}
-    return LaunchDescription([
-        *(DeclareLaunchArgument(name, default_value='', description=meaning + UNLESS_GIVEN)
-          for name, meaning in parameters.items()),
-        *(DeclareLaunchArgument(name, default_value=default, description=meaning)
-          for name, (default, meaning) in OTHERS.items()),
-        OpaqueFunction(function=nodes)])
+    return LaunchDescription(
+        [
+            *(
+                DeclareLaunchArgument(name, default_value='', description=meaning + UNLESS_GIVEN)
+                for name, meaning in parameters.items()
+            ),
+            *(
+                DeclareLaunchArgument(name, default_value=default, description=meaning)
+                for name, (default, meaning) in OTHERS.items()
+            ),
+            OpaqueFunction(function=nodes),
+        ]
+    )
 
 
 def nodes(context):
     """Nodes that are asked for; raises before any is started where one can't be."""
     names = (*TEXTS, *LISTS, *NUMBERS, *OTHERS)
     given = {name: context.launch_configurations[name].strip() for name in names}
-    common = {'namespace': given['namespace'],
-              'ros_arguments': ['--log-level', given['log_level']] if given['log_level'] else None}
+    common = {
+        'namespace': given['namespace'],
+        'ros_arguments': ['--log-level', given['log_level']] if given['log_level'] else None,
+    }
     started = [simulator(given, common)]
     if is_true(context, given, 'wind'):
         started.append(wind(context, given, common))
@@ -74,19 +106,34 @@ def simulator(given, common):
     parameters = {}
     for name in (*TEXTS, *LISTS, *NUMBERS, 'publish_clock'):
         if given[name]:
-            kind = str if name in TEXTS else List[str] if name in LISTS else None  # None: as YAML reads it
-            value = listed(name, given[name]) if name in LISTS else TextSubstitution(text=given[name])
+            # None: as YAML reads it
+            kind = str if name in TEXTS else List[str] if name in LISTS else None
+            value = (
+                listed(name, given[name]) if name in LISTS else TextSubstitution(text=given[name])
+            )
             parameters[name] = ParameterValue(value, value_type=kind)
-    return Node(package='golf_sim_ros', executable='sim_node', name='golf_sim', output='screen',
-                parameters=[*params_files(given, 'params_file'), parameters],
-                on_exit=Shutdown(reason='the simulator has ended'), **common)
+    return Node(
+        package='golf_sim_ros',
+        executable='sim_node',
+        name='golf_sim',
+        output='screen',
+        parameters=[*params_files(given, 'params_file'), parameters],
+        on_exit=Shutdown(reason='the simulator has ended'),
+        **common,
+    )
 
 
 def wind(context, given, common):
     """The node `wind_generator`."""
     files = params_files(given, 'params_file', 'wind_params', 'wind_params_file')
-    return Node(package='golf_sim_ros', executable='wind_node', name='wind_generator', output='screen',
-                parameters=[*files, follow_clock(context, given)], **common)
+    return Node(
+        package='golf_sim_ros',
+        executable='wind_node',
+        name='wind_generator',
+        output='screen',
+        parameters=[*files, follow_clock(context, given)],
+        **common,
+    )
 
 
 def rviz(context, given, common):
@@ -94,10 +141,17 @@ def rviz(context, given, common):
     try:
         ExecutableInPackage(package='rviz2', executable='rviz2').perform(context)
     except (LookupError, SubstitutionFailure):  # no package, no program in it
-        raise RuntimeError(f'rviz:={given["rviz"]} needs the package rviz2: nothing is started') from None
+        raise RuntimeError(
+            f'rviz:={given["rviz"]} needs the package rviz2: nothing is started'
+        ) from None
     view = Path(FindPackageShare('golf_sim_ros').perform(context), 'rviz', 'golf.rviz')
-    return Node(package='rviz2', executable='rviz2', arguments=['-d', str(view)],
-                parameters=[follow_clock(context, given)], **common)
+    return Node(
+        package='rviz2',
+        executable='rviz2',
+        arguments=['-d', str(view)],
+        parameters=[follow_clock(context, given)],
+        **common,
+    )
 
 
 def follow_clock(context, given):
@@ -106,16 +160,24 @@ def follow_clock(context, given):
 
 
 def is_true(context, given, name):
-    """Whether an argument is true, as launch has it; RuntimeError where it is neither that nor false."""
+    """Whether an argument is true, as launch has it.
+
+    RuntimeError where it is neither that nor false.
+    """
     expression = [TextSubstitution(text=given[name])]
     try:
         return given[name] != '' and evaluate_condition_expression(context, expression)
     except InvalidConditionExpressionError:
-        raise RuntimeError(f'{name}:={given[name]} must be true or false: nothing is started') from None
+        raise RuntimeError(
+            f'{name}:={given[name]} must be true or false: nothing is started'
+        ) from None
 
 
 def listed(name, text):
-    """Names in a list as YAML has it, or with commas or spaces between; RuntimeError where it is none."""
+    """Names in a list as YAML has it, or with commas or spaces between.
+
+    RuntimeError where it is none.
+    """
     if not text.startswith('['):
         return text.replace(',', ' ').split()
     try:

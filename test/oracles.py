@@ -1,9 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What theory says: closed forms and independent equations, none of them taken from the package.
 
 A solid sphere has k = I / (m r^2) = 2/5. In formulas of contact, `spin` is the speed r w that the
-surface of the ball has by its spin: positive as in rolling forward, so a rolling ball has v = spin.
+surface of the ball has by its spin: positive as in rolling forward, so a rolling ball has v =
+spin.
 """
+
 from math import atan, cos, cosh, exp, expm1, log, log1p, pi, sin, sqrt, tanh
 
 G = 9.80665  # m/s^2, CGPM 1901
@@ -14,6 +29,7 @@ K = 0.4  # of a uniform sphere
 
 # Flight
 
+
 def vacuum_flight(speed, angle):
     """Range, height and time over level ground: v^2 sin 2a / g, (v sin a)^2 / 2g, 2 v sin a / g."""
     up = speed * sin(angle)
@@ -23,8 +39,11 @@ def vacuum_flight(speed, angle):
 def linear_drag_path(velocity, rate, time):
     """Way after `time` with v' = -b v - g: integrate v = (v0 + g/b) e^(-b t) - g/b."""
     fade = -expm1(-rate * time) / rate
-    return (velocity[0] * fade, velocity[1] * fade,
-            (velocity[2] + G / rate) * fade - G * time / rate)
+    return (
+        velocity[0] * fade,
+        velocity[1] * fade,
+        (velocity[2] + G / rate) * fade - G * time / rate,
+    )
 
 
 def terminal_speed(push, drag):
@@ -61,22 +80,28 @@ def spin_after(spin, path):
 
 def drag_coefficient(s, re):
     """Drag coefficient by spin ratio and Reynolds number: a fit, its numbers the package's own."""
-    return (0.11 + 0.1529 * re ** 2 / (re ** 2 + 1.564e5 ** 2)
-            + 0.1591 * (1 + 4.198 / (1 + (re / 5.133e4) ** 4)) * s ** 2 / (s ** 2 + 0.1649 ** 2)
-            + 0.5955 / (1 + (re / 5.519e4) ** 4) / (1 + (s / 0.05) ** 2))
+    return (
+        0.11
+        + 0.1529 * re**2 / (re**2 + 1.564e5**2)
+        + 0.1591 * (1 + 4.198 / (1 + (re / 5.133e4) ** 4)) * s**2 / (s**2 + 0.1649**2)
+        + 0.5955 / (1 + (re / 5.519e4) ** 4) / (1 + (s / 0.05) ** 2)
+    )
 
 
 def lift_coefficient(s, re):
     """Lift coefficient likewise."""
-    return (s / sqrt(s ** 2 + 0.02 ** 2) * 0.06887 * (1 - 0.4528 / (1 + (re / 2.049e5) ** 4))
-            + 0.3455 * s / sqrt(s ** 2 + 0.2587 ** 2))
+    return s / sqrt(s**2 + 0.02**2) * 0.06887 * (
+        1 - 0.4528 / (1 + (re / 2.049e5) ** 4)
+    ) + 0.3455 * s / sqrt(s**2 + 0.2587**2)
 
 
 def golf_ball_rates(density, viscosity):
-    """Right-hand side y' = f(t, y) of a golf ball's flight in still air; y is position, velocity, spin.
+    """Right-hand side y' = f(t, y) of a golf ball's flight in still air.
 
-    Drag against the velocity, lift along spin x velocity by the spin across the path, spin decay after
-    Smits and Smith 1994.
+    Y is position, velocity, spin.
+
+    Drag against the velocity, lift along spin x velocity by the spin across the path, spin decay
+    after Smits and Smith 1994.
     """
     push = density * pi * RADIUS * RADIUS / (2 * MASS)
     decay = 2e-5 * density / 1.18 / RADIUS
@@ -91,12 +116,23 @@ def golf_ball_rates(density, viscosity):
         lift = push * speed * speed * lift_coefficient(RADIUS * across / (speed * speed), re)
         lift = lift / across if across > 0 else 0.0
         fade = -decay * speed
-        return (u, v, w, lift * lx - drag * u, lift * ly - drag * v, lift * lz - drag * w - G,
-                fade * p, fade * q, fade * r)
+        return (
+            u,
+            v,
+            w,
+            lift * lx - drag * u,
+            lift * ly - drag * v,
+            lift * lz - drag * w - G,
+            fade * p,
+            fade * q,
+            fade * r,
+        )
+
     return rates
 
 
 # Impact
+
 
 def time_of_all_bounces(speed, e):
     """Time from a launch upward at `speed` to rest: the sum of 2 v e^n / g."""
@@ -111,10 +147,13 @@ def height_after(height, e, bounces):
 def gripping_bounce(v, spin, ex):
     """Velocity and spin after a bounce with grip: slip u = v - spin becomes -ex u, v + k spin is kept.
 
-    ex = 0 leaves rolling, 5/7 v + 2/7 spin; ex = 1 is Garwin's superball (Am. J. Phys. 37 (1969) 88).
+    ex = 0 leaves rolling, 5/7 v + 2/7 spin; ex = 1 is Garwin's superball (Am. J. Phys. 37 (1969)
+    88).
     """
-    return (((1 - K * ex) * v + K * (1 + ex) * spin) / (1 + K),
-            ((1 + ex) * v + (K - ex) * spin) / (1 + K))
+    return (
+        ((1 - K * ex) * v + K * (1 + ex) * spin) / (1 + K),
+        ((1 + ex) * v + (K - ex) * spin) / (1 + K),
+    )
 
 
 def slipping_bounce(v, spin, mu, e, approach):
@@ -129,6 +168,7 @@ def grips(v, spin, mu, e, approach):
 
 
 # Sliding and rolling
+
 
 def slide_to_roll(v, spin, mu):
     """Velocity when rolling begins, when and where: v' = -mu g, slip falls at 7/2 mu g."""
@@ -163,6 +203,7 @@ def sliding_ball_rates(mu, tilt):
     y is (x, y, u, v, p, q): place and velocity along the plane and the spin's components there,
     x down the slope. Coulomb friction mu g cos(tilt) acts against the slip.
     """
+
     def rates(_, y):
         u, v, p, q = y[2:]
         slip_x, slip_y = u - RADIUS * q, v + RADIUS * p
@@ -170,13 +211,16 @@ def sliding_ball_rates(mu, tilt):
         fx = -mu * G * cos(tilt) * slip_x / slip
         fy = -mu * G * cos(tilt) * slip_y / slip
         return u, v, G * sin(tilt) + fx, fy, fy / (K * RADIUS), -fx / (K * RADIUS)
+
     return rates
 
 
 def rolling_ball_rates(resistance, tilt):
     """y' = f(t, y) of a ball rolling on such a plane, y = (x, y, u, v), braked by resistance times g cos."""
+
     def rates(_, y):
         u, v = y[2:]
         brake = resistance * G * cos(tilt) / sqrt(u * u + v * v)
         return u, v, G * sin(tilt) / (1 + K) - brake * u, -brake * v
+
     return rates

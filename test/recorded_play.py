@@ -1,14 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
-"""A play of a world, with the messages that a sim would publish, and bags of it; no ROS."""
-from copy import deepcopy
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
 
-from rosbags.rosbag2 import StoragePlugin, Writer
-from rosbags.typesys import Stores, get_typestore
+"""A play of a world, with the messages that a sim would publish, and bags of it; no ROS."""
+
+from copy import deepcopy
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics import Phase, Rejected, Result, World
 from golf_sim_ros.recording.journal import Journal
 from golf_sim_ros.recording.json_format import collision_text, rejection_text, result_text
+from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.typesys import get_typestore, Stores
 
 TYPES = get_typestore(Stores.ROS2_JAZZY)
 START = 1_700_000_000_123_456_789  # ns
@@ -31,8 +44,13 @@ PLAY = (
     (4200, 'strike', ('red', CHIP, SPIN)),
 )
 LAST = 6000
-PARAMETERS = {'course': 'golf_without_friends', 'rate': RATE, 'accuracy': 'standard', 'effects': ['auto'],
-              'balls': ['red', 'blue']}
+PARAMETERS = {
+    'course': 'golf_without_friends',
+    'rate': RATE,
+    'accuracy': 'standard',
+    'effects': ['auto'],
+    'balls': ['red', 'blue'],
+}
 STRIKES = 5  # of these that are played; the third is at a ball in motion
 
 
@@ -58,20 +76,26 @@ class Sim:
         return self.told
 
     def strike(self, ball, velocity, spin):
-        self.tell(f'{ball}/shot', 'geometry_msgs/msg/Twist', linear=xyz(velocity), angular=xyz(spin))
+        self.tell(
+            f'{ball}/shot', 'geometry_msgs/msg/Twist', linear=xyz(velocity), angular=xyz(spin)
+        )
         self.shots += 1
         before = self.world.state()
         try:
             self.world.strike(ball, velocity, spin)
         except Rejected as error:
-            self.tell_text('shot/result', rejection_text(self.shots, ball, velocity, spin, str(error)))
+            self.tell_text(
+                'shot/result', rejection_text(self.shots, ball, velocity, spin, str(error))
+            )
             return
         self.playing[ball] = self.shots
         self.journal.strike(self.tick, self.shots, ball, (velocity, spin), before)
 
     def wind(self, wind):
         self.world.set_wind(wind)
-        self.tell('wind', 'geometry_msgs/msg/Vector3Stamped', header=self.header(), vector=xyz(wind))
+        self.tell(
+            'wind', 'geometry_msgs/msg/Vector3Stamped', header=self.header(), vector=xyz(wind)
+        )
         if self.world.moving:
             self.journal.note('wind', self.tick, wind=wind)
 
@@ -101,12 +125,28 @@ class Sim:
         for name in self.world.names if self.tick % STEP == 0 else ():
             ball = self.world[name]
             if ball.phase != Phase.REST or self.tick % int(RATE) == 0:
-                self.tell(f'{name}/pose', 'geometry_msgs/msg/PoseStamped', header=self.header(),
-                          pose=made('geometry_msgs/msg/Pose', position=xyz(ball.position, 'Point'),
-                                    orientation=made('geometry_msgs/msg/Quaternion', x=0., y=0., z=0., w=1.)))
-                self.tell(f'{name}/twist', 'geometry_msgs/msg/TwistStamped', header=self.header(),
-                          twist=made('geometry_msgs/msg/Twist', linear=xyz(ball.velocity),
-                                     angular=xyz(ball.spin)))
+                self.tell(
+                    f'{name}/pose',
+                    'geometry_msgs/msg/PoseStamped',
+                    header=self.header(),
+                    pose=made(
+                        'geometry_msgs/msg/Pose',
+                        position=xyz(ball.position, 'Point'),
+                        orientation=made(
+                            'geometry_msgs/msg/Quaternion', x=0.0, y=0.0, z=0.0, w=1.0
+                        ),
+                    ),
+                )
+                self.tell(
+                    f'{name}/twist',
+                    'geometry_msgs/msg/TwistStamped',
+                    header=self.header(),
+                    twist=made(
+                        'geometry_msgs/msg/Twist',
+                        linear=xyz(ball.velocity),
+                        angular=xyz(ball.spin),
+                    ),
+                )
 
     def header(self):
         now = self.start + round(self.world.time * 1e9)
@@ -128,14 +168,18 @@ def made(kind, **fields):
 
 def xyz(vector, kind='Vector3'):
     """A Vector3 or Point."""
-    return made(f'geometry_msgs/msg/{kind}', **{name: float(part) for name, part in zip('xyz', vector)})
+    return made(
+        f'geometry_msgs/msg/{kind}', **{name: float(part) for name, part in zip('xyz', vector)}
+    )
 
 
 def bag(path, told, storage='mcap'):
     """Path of a bag in which all of `told` is."""
     with Writer(path, version=9, storage_plugin=StoragePlugin[storage.upper()]) as writer:
-        topics = {topic: writer.add_connection(topic, kind, typestore=TYPES)
-                  for topic, kind in dict(one[:2] for one in told).items()}
+        topics = {
+            topic: writer.add_connection(topic, kind, typestore=TYPES)
+            for topic, kind in dict(one[:2] for one in told).items()
+        }
         for topic, kind, received, message in told:
             writer.write(topics[topic], received, TYPES.serialize_cdr(message, kind))
     return path
@@ -160,8 +204,10 @@ def changed(told, change, *topics):
 
 def replaced(old, new):
     """A change that replaces `old` by `new` in a text, where it is."""
+
     def change(message):
         found = old in message.data
         message.data = message.data.replace(old, new, 1)
         return found
+
     return change

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The examples of CONTRIBUTING.md, put into a copy of the package as it says, are played."""
+
 import os
 from pathlib import Path
 import re
@@ -45,8 +59,16 @@ def insert(path, after, line):
     """Add a line after the one that begins with `after`."""
     text = path.read_text(encoding='utf-8')
     assert re.search(f'^{re.escape(after)}', text, re.MULTILINE), f'{path.name} has no {after!r}'
-    path.write_text(re.sub(f'^({re.escape(after)}.*)$', lambda found: f'{found[1]}\n{line}', text, count=1,
-                           flags=re.MULTILINE), encoding='utf-8')
+    path.write_text(
+        re.sub(
+            f'^({re.escape(after)}.*)$',
+            lambda found: f'{found[1]}\n{line}',
+            text,
+            count=1,
+            flags=re.MULTILINE,
+        ),
+        encoding='utf-8',
+    )
 
 
 @pytest.fixture(scope='module')
@@ -60,17 +82,31 @@ def told(tmp_path_factory):
         (copy / path).write_text(content, encoding='utf-8')
     scene = copy / 'golf_sim_ros' / 'physics' / 'scene'
     insert(scene / 'course_record.py', '    air: Air', '    rain: float = 0.0')
-    insert(scene / 'presets.py', 'ACCURACY = {', re.search(r"^    'rough'.*$", TEXT, re.MULTILINE)[0])
-    run = subprocess.run([sys.executable, '-c', PLAY], cwd=copy, capture_output=True, text=True,
-                         env={**os.environ, 'PYTHONPATH': str(copy)})
+    insert(
+        scene / 'presets.py', 'ACCURACY = {', re.search(r"^    'rough'.*$", TEXT, re.MULTILINE)[0]
+    )
+    run = subprocess.run(
+        [sys.executable, '-c', PLAY],
+        cwd=copy,
+        capture_output=True,
+        text=True,
+        env={**os.environ, 'PYTHONPATH': str(copy)},
+    )
     assert run.returncode == 0, run.stderr
-    return [[word if word.isalpha() else float(word) for word in line.split()] for line in
-            run.stdout.splitlines()]
+    return [
+        [word if word.isalpha() else float(word) for word in line.split()]
+        for line in run.stdout.splitlines()
+    ]
 
 
 def test_it_has_an_example_of_each():
     assert {path.rpartition('/')[2] for path in files()} == {
-        'rain.py', 'cone.py', 'midpoint.py', 'clay.yaml', 'yard.yaml'}
+        'rain.py',
+        'cone.py',
+        'midpoint.py',
+        'clay.yaml',
+        'yard.yaml',
+    }
 
 
 def test_rain_brakes_a_drive(told):

@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What rclpy needs to start is there, however bare the machine."""
 
 from pathlib import Path
@@ -14,7 +27,11 @@ def completed(**environment):
 
 
 def test_what_the_user_has_set_stays(tmp_path):
-    given = {'HOME': str(tmp_path), 'ROS_LOG_DIR': '/somewhere', 'AMENT_PREFIX_PATH': '/opt/ros/jazzy'}
+    given = {
+        'HOME': str(tmp_path),
+        'ROS_LOG_DIR': '/somewhere',
+        'AMENT_PREFIX_PATH': '/opt/ros/jazzy',
+    }
     assert completed(**given) == given
 
 

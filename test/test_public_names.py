@@ -1,43 +1,148 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Names that users have in their scripts, launch files and courses: they stay, wherever the code moves."""
+
 import ast
 from importlib import import_module
 from pathlib import Path
 
+from golf_sim_ros.physics import ACCURACY, EFFECTS, METHODS
 import pytest
 
-from golf_sim_ros.physics import ACCURACY, EFFECTS, METHODS
-
 ROOT = Path(__file__).resolve().parents[1]
-COMMANDS = {'sim_node', 'wind_node', 'shoot', 'record_play', 'resimulate', 'plot_play', 'accuracy_study',
-            'compile_physics'}
-SIM_PARAMETERS = {'course', 'rate', 'publish_rate', 'real_time_factor', 'accuracy', 'effects', 'balls',
-                  'frame_id', 'publish_clock', 'engine'}
-WIND_PARAMETERS = {'speed', 'speed_spread', 'direction', 'direction_spread', 'interval', 'ramp', 'turbulence',
-                   'seed', 'publish_rate', 'frame_id'}
+COMMANDS = {
+    'sim_node',
+    'wind_node',
+    'shoot',
+    'record_play',
+    'resimulate',
+    'plot_play',
+    'accuracy_study',
+    'compile_physics',
+}
+SIM_PARAMETERS = {
+    'course',
+    'rate',
+    'publish_rate',
+    'real_time_factor',
+    'accuracy',
+    'effects',
+    'balls',
+    'frame_id',
+    'publish_clock',
+    'engine',
+}
+WIND_PARAMETERS = {
+    'speed',
+    'speed_spread',
+    'direction',
+    'direction_spread',
+    'interval',
+    'ramp',
+    'turbulence',
+    'seed',
+    'publish_rate',
+    'frame_id',
+}
 NAMES_OF_EFFECTS = {
-    'ball_ball', 'bearman_harvey_1976', 'drag', 'ferguson_drag', 'ferguson_lift', 'foliage', 'gravity',
-    'linear_drag', 'magnus', 'naruo_2004', 'penner_2002', 'smits_smith_1994', 'spin_decay', 'turf', 'water',
-    'wind'}
-TOPICS = {'shot', 'place', 'wind', 'pose', 'twist', 'contact', 'collisions', 'shot/result', 'journal',
-          'course/markers', 'play/markers', 'heartbeat', '/diagnostics', '/clock'}
+    'ball_ball',
+    'bearman_harvey_1976',
+    'drag',
+    'ferguson_drag',
+    'ferguson_lift',
+    'foliage',
+    'gravity',
+    'linear_drag',
+    'magnus',
+    'naruo_2004',
+    'penner_2002',
+    'smits_smith_1994',
+    'spin_decay',
+    'turf',
+    'water',
+    'wind',
+}
+TOPICS = {
+    'shot',
+    'place',
+    'wind',
+    'pose',
+    'twist',
+    'contact',
+    'collisions',
+    'shot/result',
+    'journal',
+    'course/markers',
+    'play/markers',
+    'heartbeat',
+    '/diagnostics',
+    '/clock',
+}
 IMPORTS = {
     'golf_sim_ros.course': ('load_course', 'load_round', 'shipped_courses', 'CourseError'),
     'golf_sim_ros.bag': ('read_bag', 'BagError'),
     'golf_sim_ros.wind': ('Gusts', 'GustSettings'),
     'golf_sim_ros.physics': (
-        'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'ENGINES',
-        'EngineUnavailable', 'Heightmap', 'LogProfile', 'Material', 'Mesh', 'NoPlace', 'PENNER', 'Patch',
-        'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected', 'Restitution', 'Result', 'Shot',
-        'Sphere', 'UniformProfile', 'Water', 'World', 'Zone', 'check_hole', 'check_tee', 'cycles_now',
-        'ground_height', 'register_effect', 'rolling_resistance_of_stimp', 'simulate', 'simulate_many',
-        'standard_atmosphere'),
+        'Air',
+        'Ball',
+        'BallState',
+        'Collision',
+        'Course',
+        'Cylinder',
+        'EFFECTS',
+        'ENGINES',
+        'EngineUnavailable',
+        'Heightmap',
+        'LogProfile',
+        'Material',
+        'Mesh',
+        'NoPlace',
+        'PENNER',
+        'Patch',
+        'Phase',
+        'Plane',
+        'Play',
+        'PowerProfile',
+        'Preset',
+        'Rejected',
+        'Restitution',
+        'Result',
+        'Shot',
+        'Sphere',
+        'UniformProfile',
+        'Water',
+        'World',
+        'Zone',
+        'check_hole',
+        'check_tee',
+        'cycles_now',
+        'ground_height',
+        'register_effect',
+        'rolling_resistance_of_stimp',
+        'simulate',
+        'simulate_many',
+        'standard_atmosphere',
+    ),
 }
 
 
 def test_commands_are_called_as_before():
     assert COMMANDS <= {path.name for path in (ROOT / 'scripts').iterdir()}
-    assert all(f"'{name}': " in (ROOT / 'setup.py').read_text(encoding='utf-8') for name in COMMANDS)
+    assert all(
+        f"'{name}': " in (ROOT / 'setup.py').read_text(encoding='utf-8') for name in COMMANDS
+    )
 
 
 def test_effects_integrators_and_presets_are_called_as_before():
@@ -57,8 +162,10 @@ def test_what_is_public_is_imported_as_before(module):
 def test_pictures_are_imported_as_before():
     pytest.importorskip('matplotlib')
     drawing = import_module('golf_sim_ros.drawing')
-    assert all(callable(getattr(drawing, name))
-               for name in ('draw', 'drawn', 'picture', 'recorded', 'DrawnShot'))
+    assert all(
+        callable(getattr(drawing, name))
+        for name in ('draw', 'drawn', 'picture', 'recorded', 'DrawnShot')
+    )
 
 
 def test_nodes_and_their_parameters_are_called_as_before():
@@ -69,8 +176,14 @@ def test_nodes_and_their_parameters_are_called_as_before():
 
 
 def test_topics_are_called_as_before():
-    texts = [node.value for path in (ROOT / 'golf_sim_ros' / 'nodes').glob('*.py')
-             for node in ast.walk(ast.parse(path.read_text(encoding='utf-8')))
-             if isinstance(node, ast.Constant) and isinstance(node.value, str)]
-    assert [topic for topic in TOPICS if not any(f'/{text}'.endswith(f'/{topic.lstrip("/")}')
-                                                 for text in texts)] == []
+    texts = [
+        node.value
+        for path in (ROOT / 'golf_sim_ros' / 'nodes').glob('*.py')
+        for node in ast.walk(ast.parse(path.read_text(encoding='utf-8')))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    ]
+    assert [
+        topic
+        for topic in TOPICS
+        if not any(f'/{text}'.endswith(f'/{topic.lstrip("/")}') for text in texts)
+    ] == []

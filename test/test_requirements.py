@@ -1,12 +1,29 @@
-# SPDX-License-Identifier: Apache-2.0
-"""What is imported is declared, for apt and for pip; what apt has not is optional, and its lack reported."""
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What is imported is declared, for apt and for pip.
+
+What apt has not is optional, and its lack reported.
+"""
+
 import ast
+from pathlib import Path
 import re
 import runpy
 import stat
 import subprocess
 import sys
-from pathlib import Path
 from unittest.mock import patch
 from xml.etree import ElementTree
 
@@ -17,25 +34,45 @@ PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
 LAUNCH = sorted((ROOT / 'launch').rglob('*.py'))
 
 # By the name it is imported by: the key of rosdep, the name for pip.
-PYTHON = {'numpy': ('python3-numpy', 'numpy'), 'yaml': ('python3-yaml', 'pyyaml'),
-          'matplotlib': ('python3-matplotlib', 'matplotlib'), 'scipy': ('python3-scipy', 'scipy'),
-          'tqdm': ('python3-tqdm', 'tqdm')}
-ROS = ('rclpy', 'rcl_interfaces', 'std_msgs', 'std_srvs', 'geometry_msgs', 'visualization_msgs',
-       'diagnostic_msgs', 'rosgraph_msgs')
-LAUNCHING = ('launch', 'launch_ros')    # no wheels
-STARTED = ('rviz2',)                    # by the launch file, not imported
+PYTHON = {
+    'numpy': ('python3-numpy', 'numpy'),
+    'yaml': ('python3-yaml', 'pyyaml'),
+    'matplotlib': ('python3-matplotlib', 'matplotlib'),
+    'scipy': ('python3-scipy', 'scipy'),
+    'tqdm': ('python3-tqdm', 'tqdm'),
+}
+ROS = (
+    'rclpy',
+    'rcl_interfaces',
+    'std_msgs',
+    'std_srvs',
+    'geometry_msgs',
+    'visualization_msgs',
+    'diagnostic_msgs',
+    'rosgraph_msgs',
+)
+LAUNCHING = ('launch', 'launch_ros')  # no wheels
+STARTED = ('rviz2',)  # by the launch file, not imported
 
-# What apt has not: where it is imported, and only when it is needed; the extra of pip that brings it.
-# llvmlite is numba's own compiler and comes with it.
+# What apt has not: where it is imported, and only when it is needed; the extra of pip that brings
+# it. llvmlite is numba's own compiler and comes with it.
 BY_PIP = {
     'numba': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
     'llvmlite': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
-    'rosbags': ('bag', 'rosbags', ('golf_sim_ros/recording/bag.py', 'golf_sim_ros/recording/bag_file.py',
-                                   'golf_sim_ros/recording/bag_writer.py')),
+    'rosbags': (
+        'bag',
+        'rosbags',
+        (
+            'golf_sim_ros/recording/bag.py',
+            'golf_sim_ros/recording/bag_file.py',
+            'golf_sim_ros/recording/bag_writer.py',
+        ),
+    ),
     'trimesh': ('mesh', 'trimesh', ('golf_sim_ros/course/mesh_file.py',)),
     'rasterio': ('terrain', 'rasterio', ('golf_sim_ros/course/terrain_file.py',)),
 }
-# Every apt key here is one of rosdep's, for apt, in rosdistro's python.yaml, with no exception for a release.
+# Every apt key here is one of rosdep's, for apt, in rosdistro's python.yaml, with no exception for
+# a release.
 NO_APT_KEY = ('python3-numba', 'python3-rosbags-pip', 'python3-trimesh-pip')
 
 
@@ -58,8 +95,11 @@ def imports(path):
             look(child, hard and not forgiven and not later)
 
     look(ast.parse(path.read_text(encoding='utf-8')), True)
-    return {(module, hard) for module, hard in found
-            if module not in sys.stdlib_module_names and module != 'golf_sim_ros'}
+    return {
+        (module, hard)
+        for module, hard in found
+        if module not in sys.stdlib_module_names and module != 'golf_sim_ros'
+    }
 
 
 def forgives(handler):
@@ -118,9 +158,13 @@ def test_pip_needs_no_more_than_the_simulator_does(setup):
 
 
 @pytest.mark.parametrize('module', sorted(BY_PIP))
-def test_what_apt_has_not_is_imported_when_needed_and_only_where_it_is_told_how_to_get_it(module, setup):
+def test_what_apt_has_not_is_imported_when_needed_and_only_where_it_is_told_how_to_get_it(
+    module, setup
+):
     extra, wanted, places = BY_PIP[module]
-    importers = {name(path): hard for path in PACKAGE for found, hard in imports(path) if found == module}
+    importers = {
+        name(path): hard for path in PACKAGE for found, hard in imports(path) if found == module
+    }
     assert [place for place in importers if not place.startswith(places)] == []
     assert not any(hard and 'physics/jit/' not in place for place, hard in importers.items())
     assert wanted in names(setup['extras_require'][extra])
@@ -131,9 +175,21 @@ def test_the_manifest_asks_for_nothing_that_apt_has_not(kind):
     assert [key for key in manifest(kind) if key in NO_APT_KEY or key.endswith('-pip')] == []
 
 
-@pytest.mark.parametrize('module', [
-    'nodes.sim_node', 'nodes.wind_node', 'cli.shoot', 'cli.record_play', 'cli.resimulate', 'cli.plot_play',
-    'cli.accuracy_study', 'bag', 'course', 'physics'])
+@pytest.mark.parametrize(
+    'module',
+    [
+        'nodes.sim_node',
+        'nodes.wind_node',
+        'cli.shoot',
+        'cli.record_play',
+        'cli.resimulate',
+        'cli.plot_play',
+        'cli.accuracy_study',
+        'bag',
+        'course',
+        'physics',
+    ],
+)
 def test_with_numpy_and_yaml_alone_it_imports(module):
     missing = {*PYTHON, *BY_PIP} - {'numpy', 'yaml'}
     if module.startswith(('nodes', 'cli.shoot', 'cli.record')):
@@ -145,23 +201,47 @@ def test_with_numpy_and_yaml_alone_it_imports(module):
 def without(missing, source):
     """A Python that runs `source` where the modules `missing` are not installed."""
     code = f'import sys; sys.modules.update(dict.fromkeys({sorted(missing)!r})); {source}'
-    return subprocess.run([sys.executable, '-W', 'ignore', '-c', code], cwd=ROOT,
-                          capture_output=True, text=True)
+    return subprocess.run(
+        [sys.executable, '-W', 'ignore', '-c', code], cwd=ROOT, capture_output=True, text=True
+    )
 
 
-@pytest.mark.parametrize('missing, source, ways', [
-    ('rosbags', 'from golf_sim_ros.recording.bag import decoder; decoder("play")',
-     ["pip install 'golf_sim_ros[bag]'"]),
-    ('rosbags', 'from golf_sim_ros.recording.bag_writer import BagWriter; BagWriter("play", "mcap")',
-     ["pip install 'golf_sim_ros[bag]'"]),
-    ('trimesh', 'from golf_sim_ros.course.mesh_file import by_trimesh; by_trimesh(b"", "a.ply")',
-     ["pip install 'golf_sim_ros[mesh]'"]),
-    ('matplotlib', 'from golf_sim_ros.cli.plot_play import main; sys.exit(main(["play"]))',
-     ['apt install python3-matplotlib', "pip install 'golf_sim_ros[plot]'"]),
-    *((library, 'from golf_sim_ros.cli.accuracy_study import main; sys.exit(main(["--quick"]))',
-       ['apt install python3-scipy python3-matplotlib python3-tqdm', "pip install 'golf_sim_ros[study]'"])
-      for library in ('matplotlib', 'scipy', 'tqdm')),
-])
+@pytest.mark.parametrize(
+    'missing, source, ways',
+    [
+        (
+            'rosbags',
+            'from golf_sim_ros.recording.bag import decoder; decoder("play")',
+            ["pip install 'golf_sim_ros[bag]'"],
+        ),
+        (
+            'rosbags',
+            'from golf_sim_ros.recording.bag_writer import BagWriter; BagWriter("play", "mcap")',
+            ["pip install 'golf_sim_ros[bag]'"],
+        ),
+        (
+            'trimesh',
+            'from golf_sim_ros.course.mesh_file import by_trimesh; by_trimesh(b"", "a.ply")',
+            ["pip install 'golf_sim_ros[mesh]'"],
+        ),
+        (
+            'matplotlib',
+            'from golf_sim_ros.cli.plot_play import main; sys.exit(main(["play"]))',
+            ['apt install python3-matplotlib', "pip install 'golf_sim_ros[plot]'"],
+        ),
+        *(
+            (
+                library,
+                'from golf_sim_ros.cli.accuracy_study import main; sys.exit(main(["--quick"]))',
+                [
+                    'apt install python3-scipy python3-matplotlib python3-tqdm',
+                    "pip install 'golf_sim_ros[study]'",
+                ],
+            )
+            for library in ('matplotlib', 'scipy', 'tqdm')
+        ),
+    ],
+)
 def test_what_is_missing_is_told_with_the_ways_to_get_it(missing, source, ways, setup):
     run = without({'numba', missing}, source)
     told = run.stderr.strip().splitlines()[-1]

@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What every file of the project keeps to."""
 
 import ast
@@ -7,19 +20,38 @@ import re
 import subprocess
 import sys
 
-import pytest
-
 import golf_sim_ros
+import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ('golf_sim_ros', 'test', 'tools', 'launch', 'benchmarks', 'docs', 'examples')
-SOURCES = [ROOT / 'setup.py', *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob('*.py')))]
+SOURCES = [
+    ROOT / 'setup.py',
+    *(path for folder in FOLDERS for path in sorted((ROOT / folder).rglob('*.py'))),
+]
 EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
 PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
 PHYSICS = ROOT / 'golf_sim_ros' / 'physics'
-# What users call of the physics, its modules right in the folder, may take more parameters: each by its name.
+# What users call of the physics, its modules right in the folder, may take more parameters: each
+# by its name.
 OF_FEW_PARAMETERS = [path for path in SOURCES if path.parent != PHYSICS]
 MOST_BRANCHES, MOST_PARAMETERS = 15, 6
+# As ament_copyright reads it.
+HEADER = '''# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+'''
 
 
 def name(path):
@@ -29,25 +61,43 @@ def name(path):
 
 def test_flake8_finds_nothing():
     pytest.importorskip('flake8')
-    check = subprocess.run([sys.executable, '-m', 'flake8', *map(str, SOURCES + EXECUTABLES)],
-                           cwd=ROOT, capture_output=True, text=True)
+    check = subprocess.run(
+        [sys.executable, '-m', 'flake8', *map(str, SOURCES + EXECUTABLES)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
     assert check.returncode == 0, check.stdout + check.stderr
 
 
 def test_no_function_branches_often():
     pytest.importorskip('flake8')
-    check = subprocess.run([sys.executable, '-m', 'flake8', '--select', 'C901', '--max-complexity',
-                            str(MOST_BRANCHES), *map(str, SOURCES)],
-                           cwd=ROOT, capture_output=True, text=True)
+    check = subprocess.run(
+        [
+            sys.executable,
+            '-m',
+            'flake8',
+            '--select',
+            'C901',
+            '--max-complexity',
+            str(MOST_BRANCHES),
+            *map(str, SOURCES),
+        ],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
     assert check.returncode == 0, check.stdout + check.stderr
 
 
 @pytest.mark.parametrize('path', OF_FEW_PARAMETERS, ids=name)
 def test_no_function_has_many_parameters(path):
-    wrong = [f'{name(path)}:{node.lineno} {node.name}'
-             for node in ast.walk(ast.parse(path.read_text(encoding='utf-8')))
-             if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
-             and len(parameters(node)) > MOST_PARAMETERS]
+    wrong = [
+        f'{name(path)}:{node.lineno} {node.name}'
+        for node in ast.walk(ast.parse(path.read_text(encoding='utf-8')))
+        if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))
+        and len(parameters(node)) > MOST_PARAMETERS
+    ]
     assert not wrong
 
 
@@ -60,16 +110,18 @@ def parameters(node):
 @pytest.mark.parametrize('path', SOURCES + EXECUTABLES, ids=name)
 def test_a_file_starts_with_its_licence_and_says_what_it_is(path):
     text = path.read_text(encoding='utf-8')
-    first = text.removeprefix('#!/usr/bin/env python3\n').partition('\n')[0]
-    assert first == '# SPDX-License-Identifier: Apache-2.0'
+    assert text.removeprefix('#!/usr/bin/env python3\n').startswith(HEADER)
     assert ast.get_docstring(ast.parse(text)), 'has no docstring'
 
 
 @pytest.mark.parametrize('path', PACKAGE, ids=name)
 def test_all_that_is_public_has_a_docstring_with_a_line_that_stands_alone(path):
     tree = ast.parse(path.read_text(encoding='utf-8'))
-    wrong = [f'{name(path)}:{node.lineno} {title}'
-             for title, node in public(tree) if not well_described(node)]
+    wrong = [
+        f'{name(path)}:{node.lineno} {title}'
+        for title, node in public(tree)
+        if not well_described(node)
+    ]
     assert not wrong
 
 
@@ -97,7 +149,11 @@ def well_described(node):
 
 def test_the_licence_file_is_the_whole_apache_licence():
     text = (ROOT / 'LICENSE').read_text(encoding='utf-8')
-    for part in ('Version 2.0, January 2004', '9. Accepting Warranty', 'END OF TERMS AND CONDITIONS'):
+    for part in (
+        'Version 2.0, January 2004',
+        '9. Accepting Warranty',
+        'END OF TERMS AND CONDITIONS',
+    ):
         assert part in text
 
 

@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Build the documentation: docs/*.md and the docstrings, as HTML: ``build_docs.py FOLDER``.
 
-As rosdoc2 does, it copies docs/ to FOLDER/source, adds a page for each module there, and builds; every
-warning is an error.
+As rosdoc2 does, it copies docs/ to FOLDER/source, adds a page for each module there, and builds;
+every warning is an error.
 """
+
 import argparse
 import os
 from pathlib import Path
@@ -22,9 +36,15 @@ def main():
     source, html = folder / 'source', folder / 'html'
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(ROOT / 'docs', source)
-    environment = {**os.environ, 'PYTHONPATH': str(ROOT), 'SPHINX_APIDOC_OPTIONS': 'members,show-inheritance'}
-    for command in (['sphinx.ext.apidoc', '-q', '-e', '-M', '-o', source, ROOT / 'golf_sim_ros'],
-                    ['sphinx', '-q', '-W', '--keep-going', source, html]):
+    environment = {
+        **os.environ,
+        'PYTHONPATH': str(ROOT),
+        'SPHINX_APIDOC_OPTIONS': 'members,show-inheritance',
+    }
+    for command in (
+        ['sphinx.ext.apidoc', '-q', '-e', '-M', '-o', source, ROOT / 'golf_sim_ros'],
+        ['sphinx', '-q', '-W', '--keep-going', source, html],
+    ):
         done = subprocess.run([sys.executable, '-m', *map(str, command)], env=environment)
         if done.returncode:
             return done.returncode

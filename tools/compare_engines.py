@@ -1,17 +1,31 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Random shots on every shipped course by both engines: how far apart do they end?
 
-Each shot has a wind of its own; every fourth is played with a second ball that is struck at the same time.
+Each shot has a wind of its own; every fourth is played with a second ball that is struck at the
+same time.
 """
+
 import argparse
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor
 import sys
 
-import numpy as np
-
 from golf_sim_ros.course import load_course, shipped_courses
 from golf_sim_ros.physics import Collision, Result, World
+import numpy as np
 
 CLOSE = 1e-9  # relative, or absolute below 1 m
 KINDS = 'drive', 'iron', 'chip', 'putt', 'anything'
@@ -21,8 +35,11 @@ LONGEST = 1000.0  # s; every shot is over long before
 def main(args=None):
     """Compare; the exit code is 0 where every shot agrees or parts at a ball or an edge."""
     options = parser().parse_args(args)
-    jobs = [(course, seed) for course in sorted(shipped_courses())
-            for seed in range(options.shots // len(shipped_courses()))]
+    jobs = [
+        (course, seed)
+        for course in sorted(shipped_courses())
+        for seed in range(options.shots // len(shipped_courses()))
+    ]
     counts, bad = Counter(), []
     with ProcessPoolExecutor(options.jobs) as pool:
         for job, (verdict, apart) in zip(jobs, pool.map(compared, jobs, chunksize=10)):
@@ -47,9 +64,13 @@ def parser():
 def compared(job):
     """What came of one shot by both engines, and how far apart [m] its balls came to rest."""
     course, seed = job
-    plain, machine = (played(load_course(course), seed, engine) for engine in ('python', 'compiled'))
-    apart = max((abs(np.subtract(one, other)) / np.maximum(1.0, np.abs(one))).max()
-                for one, other in zip(plain[0], machine[0]))
+    plain, machine = (
+        played(load_course(course), seed, engine) for engine in ('python', 'compiled')
+    )
+    apart = max(
+        (abs(np.subtract(one, other)) / np.maximum(1.0, np.abs(one))).max()
+        for one, other in zip(plain[0], machine[0])
+    )
     if plain == machine:
         return 'same to the bit', 0.0
     if apart <= CLOSE:
@@ -68,16 +89,28 @@ def played(course, seed, engine):
     for name in balls:
         world.strike(name, *strike(kind, rng))
     events = world.advance(LONGEST)
-    return [world[name].position for name in balls], [e for e in events if isinstance(e, (Collision, Result))]
+    return [world[name].position for name in balls], [
+        e for e in events if isinstance(e, (Collision, Result))
+    ]
 
 
 def strike(kind, rng):
     """Velocity and spin of a random shot of a kind."""
-    speed, low, high, spin = {'drive': (70.0, 0.1, 0.3, 300.0), 'iron': (50.0, 0.2, 0.5, 700.0),
-                              'chip': (12.0, 0.2, 1.2, 600.0), 'putt': (6.0, 0.0, 0.0, 0.0),
-                              'anything': (90.0, -0.2, 1.5, 1200.0)}[kind]
-    speed, angle, side = speed * rng.uniform(0.1, 1.0), rng.uniform(low, high), rng.uniform(-0.4, 0.4)
-    velocity = speed * np.array((np.cos(angle) * np.cos(side), np.cos(angle) * np.sin(side), np.sin(angle)))
+    speed, low, high, spin = {
+        'drive': (70.0, 0.1, 0.3, 300.0),
+        'iron': (50.0, 0.2, 0.5, 700.0),
+        'chip': (12.0, 0.2, 1.2, 600.0),
+        'putt': (6.0, 0.0, 0.0, 0.0),
+        'anything': (90.0, -0.2, 1.5, 1200.0),
+    }[kind]
+    speed, angle, side = (
+        speed * rng.uniform(0.1, 1.0),
+        rng.uniform(low, high),
+        rng.uniform(-0.4, 0.4),
+    )
+    velocity = speed * np.array(
+        (np.cos(angle) * np.cos(side), np.cos(angle) * np.sin(side), np.sin(angle))
+    )
     return tuple(velocity), tuple(spin * rng.uniform(-1.0, 1.0, 3))
 
 

@@ -1,36 +1,64 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Draws docs/physics.png and prints the tables of docs/physics.md: the laws against what was measured.
 
-    .venv/bin/python tools/draw_physics.py
+.venv/bin/python tools/draw_physics.py
 """
+
 from math import log
 from pathlib import Path
 
-import matplotlib
-import numpy as np
-
-from fit_aerodynamics import DEGREE, MPH, RPM, TABLES, YARD, column, drag_and_lift, rows
+from fit_aerodynamics import column, DEGREE, drag_and_lift, MPH, rows, RPM, TABLES, YARD
 from golf_sim_ros.course.material_file import shipped
 from golf_sim_ros.drawing.style import bare, colors
-from golf_sim_ros.physics import (Course, Material, Phase, Plane, Restitution, Shot, World, simulate,
-                                  simulate_many)
+from golf_sim_ros.physics import (
+    Course,
+    Material,
+    Phase,
+    Plane,
+    Restitution,
+    Shot,
+    simulate,
+    simulate_many,
+    World,
+)
 from golf_sim_ros.physics.effects.drag import DragLaw
 from golf_sim_ros.physics.effects.magnus import LiftLaw
+import matplotlib
+import numpy as np
 
 matplotlib.use('Agg')
 from matplotlib import pyplot as plt  # noqa: E402
 
 DOCS = Path(__file__).parents[1] / 'docs'
-LAWS = {'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
-        'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay'),
-        'Smits, Smith 1994': ('gravity', 'smits_smith_1994', 'spin_decay'),
-        'Naruo 2004': ('gravity', 'naruo_2004', 'spin_decay'),
-        'Bearman, Harvey 1976': ('gravity', 'bearman_harvey_1976', 'spin_decay'),
-        'linear': ('gravity', 'linear_drag', 'magnus', 'spin_decay')}
-RUNS = (('driver, fairway', 'fairway', 167, 10.9, 2686), ('7 iron, fairway', 'fairway', 120, 16.3, 7097),
-        ('wedge, firm green', 'firm_green', 102, 24.2, 9304),
-        ('wedge of 10,000 rpm, soft green', 'soft_green', 102, 24.2, 10000),
-        ('bump and run, green', 'green', 25, 15, 1500), ('wedge, sand', 'sand', 80, 30, 9000))
+LAWS = {
+    'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
+    'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay'),
+    'Smits, Smith 1994': ('gravity', 'smits_smith_1994', 'spin_decay'),
+    'Naruo 2004': ('gravity', 'naruo_2004', 'spin_decay'),
+    'Bearman, Harvey 1976': ('gravity', 'bearman_harvey_1976', 'spin_decay'),
+    'linear': ('gravity', 'linear_drag', 'magnus', 'spin_decay'),
+}
+RUNS = (
+    ('driver, fairway', 'fairway', 167, 10.9, 2686),
+    ('7 iron, fairway', 'fairway', 120, 16.3, 7097),
+    ('wedge, firm green', 'firm_green', 102, 24.2, 9304),
+    ('wedge of 10,000 rpm, soft green', 'soft_green', 102, 24.2, 10000),
+    ('bump and run, green', 'green', 25, 15, 1500),
+    ('wedge, sand', 'sand', 80, 30, 9000),
+)
 
 
 def ground(name, normal=(0, 0, 1)):
@@ -42,8 +70,10 @@ def strikes(speed, launch, backspin):
     """Velocities and spins of shots: mph, degrees, rpm."""
     v, angle = np.atleast_1d(speed) * MPH, np.atleast_1d(launch) * DEGREE
     zero = np.zeros(len(v))
-    return (np.stack((v * np.cos(angle), zero, v * np.sin(angle)), 1),
-            np.stack((zero, -np.atleast_1d(backspin) * RPM, zero), 1))
+    return (
+        np.stack((v * np.cos(angle), zero, v * np.sin(angle)), 1),
+        np.stack((zero, -np.atleast_1d(backspin) * RPM, zero), 1),
+    )
 
 
 def of_table(name):
@@ -62,8 +92,12 @@ def print_errors():
         for law, effects in LAWS.items():
             shots = simulate_many(ground('fairway'), *of_table(name), effects=effects)
             found = shots['carry'] / YARD, shots['apex'] / YARD, shots['landing_angle'] / DEGREE
-            cells = [f'{np.abs(f - t).mean():.2f}, {np.abs(f - t).max():.2f}' if np.isfinite(t).all() else ''
-                     for f, t in zip(found, told)]
+            cells = [
+                f'{np.abs(f - t).mean():.2f}, {np.abs(f - t).max():.2f}'
+                if np.isfinite(t).all()
+                else ''
+                for f, t in zip(found, told)
+            ]
             print(f'| {name} | {law} | {" | ".join(cells)} |')
 
 
@@ -71,12 +105,17 @@ def print_runs():
     """How far shots run out."""
     print('| shot | carry [yd] | from there [yd] |\n|---|---|---|')
     for label, material, *shot in RUNS:
-        end, = simulate_many(ground(material), *strikes(*shot))
-        print(f'| {label} | {end["carry"] / YARD:.1f} | {(end["position"][0] - end["carry"]) / YARD:.1f} |')
+        (end,) = simulate_many(ground(material), *strikes(*shot))
+        print(
+            f'| {label} | {end["carry"] / YARD:.1f} | {(end["position"][0] - end["carry"]) / YARD:.1f} |'
+        )
 
 
 def draw_flights(axes):
-    """Every club of the tour's table; a dot where the table lands it, a tick at the table's apex."""
+    """Every club of the tour's table.
+
+    A dot where the table lands it, a tick at the table's apex.
+    """
     table = rows('trackman_pga_2023.csv')
     velocities, spins = of_table('trackman_pga_2023.csv')
     palette = colors(len(table))
@@ -92,8 +131,11 @@ def draw_flights(axes):
 
 def points(key, spinning):
     """Spin ratios or Reynolds numbers, and coefficients `key`, of the wind-tunnel points."""
-    found = [row for row in rows('aero_points.csv')
-             if row[key] and row['S'] and (float(row['S']) > 0) == spinning]
+    found = [
+        row
+        for row in rows('aero_points.csv')
+        if row[key] and row['S'] and (float(row['S']) > 0) == spinning
+    ]
     across = 'S' if spinning else 'Re'
     return [float(row[across]) for row in found], [float(row[key]) for row in found]
 
@@ -156,22 +198,28 @@ def draw_errors(axes):
     """The carry's error, club by club, of both of the tour's tables."""
     for name in TABLES[:2]:
         carry = simulate_many(ground('fairway'), *of_table(name))['carry'] / YARD
-        axes.plot(carry - column(rows(name), 'carry_yd'), 'o-', ms=4, label=name[13:-4].replace('_', ' '))
+        axes.plot(
+            carry - column(rows(name), 'carry_yd'), 'o-', ms=4, label=name[13:-4].replace('_', ' ')
+        )
     axes.axhline(0, color='k', lw=0.5)
-    axes.set_xticks(range(12), [row['club'].split()[0] for row in rows(name)], rotation=60, fontsize=7)
+    axes.set_xticks(
+        range(12), [row['club'].split()[0] for row in rows(name)], rotation=60, fontsize=7
+    )
     axes.legend(frameon=False, fontsize=8)
     bare(axes, 'carry: found less told', '', 'yd')
 
 
 def fastest_holed(aside, bounciness):
     """Lowest speed [m/s] at the rim that escapes a hole in a level green, `aside` [m] off its centre."""
-    green = Material(name='green', **shipped()[0]['green'])._replace(restitution=Restitution(bounciness))
+    green = Material(name='green', **shipped()[0]['green'])._replace(
+        restitution=Restitution(bounciness)
+    )
     world = World(Course((Plane(material=green),), hole=(1.0, 0.0), flagstick=False))
     radius, brake = world.course.ball.radius, 9.80665 * green.rolling_resistance
-    start, low, high = 1.0 - np.sqrt(0.054 ** 2 - aside ** 2) - 0.1, 0.1, 4.0
+    start, low, high = 1.0 - np.sqrt(0.054**2 - aside**2) - 0.1, 0.1, 4.0
     for _ in range(12):
         speed = 0.5 * (low + high)
-        before = np.sqrt(speed ** 2 + 2 * brake * 0.1)
+        before = np.sqrt(speed**2 + 2 * brake * 0.1)
         world.reset()
         place = start, aside, radius
         world.place('ball', place, velocity=(before, 0, 0), spin=(0, before / radius, 0))

@@ -1,23 +1,36 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Fits the laws of drag and lift to tour averages and wind-tunnel points together.
 
     .venv/bin/python tools/fit_aerodynamics.py
 
-prints the parameters for physics/effects/drag.py and magnus.py, and how far the fit is from every table.
-Points and tables are those of test/data, with their provenance in their heads. A point counts by its own
-uncertainty, a table's row by that of an average of many shots; all points weigh as much as all tables.
-What no datum decides stays near where it was.
+prints the parameters for physics/effects/drag.py and magnus.py, and how far the fit is from every
+table. Points and tables are those of test/data, with their provenance in their heads. A point
+counts by its own uncertainty, a table's row by that of an average of many shots; all points weigh
+as much as all tables. What no datum decides stays near where it was.
 """
+
 import csv
 from math import pi
 from pathlib import Path
 
+from golf_sim_ros.physics.effects.drag import drag_coefficient, DragLaw
+from golf_sim_ros.physics.effects.magnus import lift_per_ratio, LiftLaw
+from golf_sim_ros.physics.properties.air import Air, density, viscosity
 import numpy as np
 from scipy.optimize import least_squares
-
-from golf_sim_ros.physics.effects.drag import DragLaw, drag_coefficient
-from golf_sim_ros.physics.effects.magnus import LiftLaw, lift_per_ratio
-from golf_sim_ros.physics.properties.air import Air, density, viscosity
 
 DATA = Path(__file__).parents[1] / 'test' / 'data'
 MPH, YARD, RPM, DEGREE = 0.44704, 0.9144, pi / 30, pi / 180
@@ -27,18 +40,28 @@ DECAY = 2.0e-5  # Smits and Smith 1994
 STEP = 0.05  # s
 LAST = 9.0  # s
 FIGURES = ('carry [yd]', 'apex [yd]', 'landing angle [deg]')
-# Residuals that count as one: carry and apex [yd], landing angle [deg]; coefficients of a ball that was
-# measured well, of an average of 13 modern balls and of one of them, and of a ball of 1976.
+# Residuals that count as one: carry and apex [yd], landing angle [deg]; coefficients of a ball
+# that was measured well, of an average of 13 modern balls and of one of them, and of a ball of
+# 1976.
 CARRY, APEX, ANGLE = 2.5, 1.5, 3.5
 UNCERTAIN = {'USGA': 0.008, 'Lyu2018': 0.02, 'BearmanHarvey1976': 0.03}
 NO_SPIN_MEANT = 2000.0  # rpm: the middle of "1500-2500 rpm", where a point has no spin ratio
 PRIOR = 3.0  # of a parameter's size: how far it may go for the weight of one row
 START = np.array((*DragLaw(), *LiftLaw()))
-# Drag that vanished without spin, or lift and drag that jumped with the first of it, would fit as well.
-LEAST = np.array((*DragLaw(*[0.0] * 10)._replace(base=0.11, fade=0.05),
-                  *LiftLaw(*[0.0] * 6)._replace(early_at=0.02)))
-TABLES = ('trackman_pga_2010s.csv', 'trackman_pga_2023.csv', 'trackman_driver_chart_2010_aoa0.csv',
-          'trackman_6iron_calm.csv')
+# Drag that vanished without spin, or lift and drag that jumped with the first of it, would fit as
+# well.
+LEAST = np.array(
+    (
+        *DragLaw(*[0.0] * 10)._replace(base=0.11, fade=0.05),
+        *LiftLaw(*[0.0] * 6)._replace(early_at=0.02),
+    )
+)
+TABLES = (
+    'trackman_pga_2010s.csv',
+    'trackman_pga_2023.csv',
+    'trackman_driver_chart_2010_aoa0.csv',
+    'trackman_6iron_calm.csv',
+)
 
 
 def rows(name):
@@ -61,8 +84,10 @@ def split(parameters):
 def drag_and_lift(laws, ratio, reynolds):
     """Drag and lift coefficients, arrays."""
     drag, lift = laws
-    pairs = [(cd(drag, s * s, re * re), s * cl(lift, s * s, re * re))
-             for s, re in zip(np.ravel(ratio), np.ravel(reynolds))]
+    pairs = [
+        (cd(drag, s * s, re * re), s * cl(lift, s * s, re * re))
+        for s, re in zip(np.ravel(ratio), np.ravel(reynolds))
+    ]
     return np.array(pairs).T
 
 
@@ -72,15 +97,22 @@ cd, cl = drag_coefficient, lift_per_ratio
 def fly(laws, speed, launch, spin):
     """Carry [yd], apex [yd] and landing angle [deg] of shots in still air of 25 degrees: RK4, all at once."""
     air = Air()
-    push = 0.5 * density(air) * pi * RADIUS ** 2 / MASS
+    push = 0.5 * density(air) * pi * RADIUS**2 / MASS
     thickness = density(air) / 1.18
 
     def rates(state):
         _, _, vx, vz, w = state
         v = np.hypot(vx, vz)
         drag, lift = push * v * drag_and_lift(laws, RADIUS * w / v, PER_SPEED * v)
-        return np.array([vx, vz, -drag * vx - lift * vz, lift * vx - drag * vz - GRAVITY,
-                         -DECAY * thickness / RADIUS * v * w])
+        return np.array(
+            [
+                vx,
+                vz,
+                -drag * vx - lift * vz,
+                lift * vx - drag * vz - GRAVITY,
+                -DECAY * thickness / RADIUS * v * w,
+            ]
+        )
 
     state = np.array([0 * speed, 0 * speed, speed * np.cos(launch), speed * np.sin(launch), spin])
     path = [state]
@@ -109,8 +141,11 @@ def fly(laws, speed, launch, spin):
 def table_errors(laws, name):
     """Errors of `FIGURES` for the rows of a table; not a number where none is told."""
     table = rows(name)
-    shots = (column(table, 'ball_speed_mph') * MPH, column(table, 'launch_deg') * DEGREE,
-             column(table, 'spin_rpm') * RPM)
+    shots = (
+        column(table, 'ball_speed_mph') * MPH,
+        column(table, 'launch_deg') * DEGREE,
+        column(table, 'spin_rpm') * RPM,
+    )
     told = [column(table, key) for key in ('carry_yd', 'max_height_yd', 'land_angle_deg')]
     return np.array([found - wanted for found, wanted in zip(fly(laws, *shots), told)])
 
@@ -120,7 +155,9 @@ def point_errors(laws):
     found = []
     for row in rows('aero_points.csv'):
         reynolds = {'': 1.4e5, '1.26e5-2.38e5': 1.8e5}.get(row['Re']) or float(row['Re'])
-        ratio = float(row['S']) if row['S'] else NO_SPIN_MEANT * RPM * RADIUS / (reynolds / PER_SPEED)
+        ratio = (
+            float(row['S']) if row['S'] else NO_SPIN_MEANT * RPM * RADIUS / (reynolds / PER_SPEED)
+        )
         (drag,), (lift,) = drag_and_lift(laws, ratio, reynolds)
         one = UNCERTAIN[row['source'].split('_')[0]]
         pairs = (drag, row['CD']), (lift, row['CL'])
@@ -140,17 +177,27 @@ def residuals(parameters):
 
 def main():
     """Fit, and print."""
-    fit = least_squares(residuals, np.maximum(START, 1.001 * LEAST), x_scale=START, bounds=(LEAST, np.inf),
-                        max_nfev=40)
+    fit = least_squares(
+        residuals,
+        np.maximum(START, 1.001 * LEAST),
+        x_scale=START,
+        bounds=(LEAST, np.inf),
+        max_nfev=40,
+    )
     best = split(fit.x)
     for law in best:
-        print(type(law).__name__, ', '.join(f'{name} {value:.4g}' for name, value in law._asdict().items()))
+        print(
+            type(law).__name__,
+            ', '.join(f'{name} {value:.4g}' for name, value in law._asdict().items()),
+        )
     for name in TABLES:
         for label, errors in zip(FIGURES, table_errors(best, name)):
             if np.isfinite(errors).all():
-                print(f'{name} {label}: mean {np.abs(errors).mean():.2f}, worst {np.abs(errors).max():.2f}')
+                print(
+                    f'{name} {label}: mean {np.abs(errors).mean():.2f}, worst {np.abs(errors).max():.2f}'
+                )
     errors, _ = point_errors(best)
-    print(f'points: root mean square {np.sqrt((errors ** 2).mean()):.4f}')
+    print(f'points: root mean square {np.sqrt((errors**2).mean()):.4f}')
 
 
 if __name__ == '__main__':

@@ -1,9 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Looks for what stops the simulator: random scenes, and malformed and extreme messages over DDS.
 
-Scenes are played in a process of their own, so that one that hangs is told by its seed. What is found is kept
-as a case in test/data/cases. `--scenes N`, `--messages N` and `--seed S` say how much, from which seed on.
+Scenes are played in a process of their own, so that one that hangs is told by its seed. What is
+found is kept as a case in test/data/cases. `--scenes N`, `--messages N` and `--seed S` say how
+much, from which seed on.
 """
+
 import argparse
 from collections import Counter
 from multiprocessing import get_context
@@ -32,7 +47,8 @@ def memory():
 def work(pipe):
     """Play the scenes whose seeds come through `pipe`, and answer with their outcomes.
 
-    First of all both programs are compiled, of one ball and of several: a hang is to be one of a scene.
+    First of all both programs are compiled, of one ball and of several: a hang is to be one of a
+    scene.
     """
     course = load_course(shipped_courses()['links'])
     for names in ('ball',), ('ball', 'other'):
@@ -63,7 +79,10 @@ class Worker:
             self.pipe.recv()
 
     def play(self, seed):
-        """Outcome and memory of a scene; a hang or a death is an outcome, too, and ends the worker."""
+        """Outcome and memory of a scene.
+
+        A hang or a death is an outcome, too, and ends the worker.
+        """
         self.pipe.send(seed)
         try:
             if self.pipe.poll(PATIENCE):
@@ -99,12 +118,18 @@ def scenes(count, seed):
             start = used
         most = max(most, used)
         if (number - seed) % 100 == 99:
-            print(f'{number - seed + 1} scenes so far: {dict(told)}, slowest {slowest:.2f} s', flush=True)
+            print(
+                f'{number - seed + 1} scenes so far: {dict(told)}, slowest {slowest:.2f} s',
+                flush=True,
+            )
     worker.pipe.send(None)
     worker.process.join(10.0)
-    print(f'{count} scenes from seed {seed} in {time.monotonic() - began:.0f} s: {refused[False]} played, '
-          f'{refused[True]} refused by name; shots: {dict(told)}; slowest call {slowest:.2f} s; '
-          f'memory {start:.0f} MB after a half, {most:.0f} MB at most', flush=True)
+    print(
+        f'{count} scenes from seed {seed} in {time.monotonic() - began:.0f} s: {refused[False]} played, '
+        f'{refused[True]} refused by name; shots: {dict(told)}; slowest call {slowest:.2f} s; '
+        f'memory {start:.0f} MB after a half, {most:.0f} MB at most',
+        flush=True,
+    )
     if start and most > start + MEMORY:
         troubles.append(f'memory grew from {start:.0f} to {most:.0f} MB')
     return troubles
@@ -114,12 +139,15 @@ def main(args=None):
     """Look for trouble; the exit code is 0 where there is none."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--scenes', type=int, default=100)
-    parser.add_argument('--messages', type=int, default=500, help='malformed ones, and as many extreme ones')
+    parser.add_argument(
+        '--messages', type=int, default=500, help='malformed ones, and as many extreme ones'
+    )
     parser.add_argument('--seed', type=int, default=SEED)
     given = parser.parse_args(args)
     troubles = scenes(given.scenes, given.seed) if given.scenes else []
     if given.messages:
         from fuzz_messages import messages
+
         troubles += messages(given.messages, given.seed)
     print('\n'.join(troubles) or 'nothing was found')
     return 1 if troubles else 0

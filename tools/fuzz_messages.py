@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Malformed and extreme messages, services and parameters over DDS at a sim, and a good shot after them."""
+
 from collections import deque
 from contextlib import contextmanager, suppress
 import json
@@ -17,8 +31,8 @@ import numpy as np
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test' / 'nodes')]
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped  # noqa: E402
-import pytest  # noqa: E402
 from processes import Golfer, parameters, Process, READY, wait_until  # noqa: E402
+import pytest  # noqa: E402
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue  # noqa: E402
 from rcl_interfaces.srv import SetParameters  # noqa: E402
 from std_msgs.msg import String  # noqa: E402
@@ -29,8 +43,21 @@ HANGS = 60.0  # s without an answer
 MEMORY = 50.0  # MB that the sim may grow by in the second half
 STRANGE = (nan, inf, -inf, 1e308, -1e308, 5e-324, 1e200, 150.1, 2500.1, 0.0, -0.0)
 GOOD, GOOD_SPIN = (9.0, 0.7, 6.0), (3.0, -120.0, 11.0)
-EXACT = ('carry', 'carry_side', 'total', 'side', 'apex', 'flight_time', 'duration', 'position', 'status',
-         'bounces', 'landing_speed', 'landing_angle', 'lie')
+EXACT = (
+    'carry',
+    'carry_side',
+    'total',
+    'side',
+    'apex',
+    'flight_time',
+    'duration',
+    'position',
+    'status',
+    'bounces',
+    'landing_speed',
+    'landing_angle',
+    'lie',
+)
 
 
 @contextmanager
@@ -38,8 +65,9 @@ def domain():
     """A ROS domain of our own, on this machine only."""
     with socket.socket() as claim, tempfile.TemporaryDirectory() as log:
         number = next(n for n in range(1, 102) if is_free(claim, n))
-        os.environ.update(ROS_DOMAIN_ID=str(number), ROS_LOG_DIR=log,
-                          ROS_AUTOMATIC_DISCOVERY_RANGE='LOCALHOST')
+        os.environ.update(
+            ROS_DOMAIN_ID=str(number), ROS_LOG_DIR=log, ROS_AUTOMATIC_DISCOVERY_RANGE='LOCALHOST'
+        )
         os.environ['PYTHONPATH'] = os.pathsep.join([str(ROOT), os.environ.get('PYTHONPATH', '')])
         os.environ.setdefault('AMENT_PREFIX_PATH', sys.prefix)
         yield
@@ -61,11 +89,20 @@ class Attacker(Golfer):
         super().__init__(namespace)
         self.rng = np.random.default_rng(seed)
         self.journal = deque(maxlen=100)
-        self.node.create_subscription(String, 'journal', lambda entry: self.journal.append(entry), 100)
+        self.node.create_subscription(
+            String, 'journal', lambda entry: self.journal.append(entry), 100
+        )
         self.beats = self.listen(String, 'heartbeat', 1)
         self.all_results = self.listen(String, 'shot/result', 100000)
-        self.ways = {topic: self.publisher(kind, topic, 100) for topic, kind in (
-            ('shot', Twist), ('ball/shot', Twist), ('ball/place', PointStamped), ('wind', Vector3Stamped))}
+        self.ways = {
+            topic: self.publisher(kind, topic, 100)
+            for topic, kind in (
+                ('shot', Twist),
+                ('ball/shot', Twist),
+                ('ball/place', PointStamped),
+                ('wind', Vector3Stamped),
+            )
+        }
         make = self.node.create_client
         self.pause, self.resets = make(SetBool, 'golf_sim/pause'), make(Trigger, 'golf_sim/reset')
         self.settings = make(SetParameters, 'golf_sim/set_parameters')
@@ -84,8 +121,12 @@ class Attacker(Golfer):
 
     def numbers(self, size, choices, share=0.5):
         """So many numbers, some of them of the `choices`."""
-        return [float(self.rng.choice(choices) if self.rng.random() < share else self.rng.normal() * 20)
-                for _ in range(size)]
+        return [
+            float(
+                self.rng.choice(choices) if self.rng.random() < share else self.rng.normal() * 20
+            )
+            for _ in range(size)
+        ]
 
     def malformed(self):
         """Send something that the sim must refuse, or take as nothing."""
@@ -117,7 +158,10 @@ class Attacker(Golfer):
             spin *= self.rng.choice([0.0, 1e-9, 2499.0]) / np.linalg.norm(spin)
             self.send(str(self.rng.choice(['shot', 'ball/shot'])), [*way.tolist(), *spin.tolist()])
         elif what == 4:
-            self.send('ball/place', (self.rng.normal(size=3) * self.rng.choice([1.0, 100.0, 1e6])).tolist())
+            self.send(
+                'ball/place',
+                (self.rng.normal(size=3) * self.rng.choice([1.0, 100.0, 1e6])).tolist(),
+            )
         elif what == 5:
             wind = self.rng.normal(size=3)
             self.send('wind', (99.9 * wind / np.linalg.norm(wind)).tolist())
@@ -129,10 +173,15 @@ class Attacker(Golfer):
     def send(self, topic, numbers, frame=''):
         """Publish numbers on a topic."""
         message = {'ball/place': PointStamped, 'wind': Vector3Stamped}.get(topic, Twist)()
-        parts = [message.point] if topic == 'ball/place' else [message.vector] if topic == 'wind' else [
-            message.linear, message.angular]
+        parts = (
+            [message.point]
+            if topic == 'ball/place'
+            else [message.vector]
+            if topic == 'wind'
+            else [message.linear, message.angular]
+        )
         for k, part in enumerate(parts):
-            part.x, part.y, part.z = numbers[3 * k:3 * k + 3]
+            part.x, part.y, part.z = numbers[3 * k : 3 * k + 3]
         if hasattr(message, 'header'):
             message.header.frame_id = frame
         self.ways[topic].publish(message)
@@ -140,15 +189,22 @@ class Attacker(Golfer):
     def set(self, name, value):
         """Set a parameter."""
         kind = {str: 'string', float: 'double', int: 'integer', bool: 'bool'}[type(value)]
-        told = ParameterValue(type=getattr(ParameterType, f'PARAMETER_{kind.upper()}'),
-                              **{f'{kind}_value': value})
-        self.ask(self.settings, SetParameters.Request(parameters=[Parameter(name=name, value=told)]))
+        told = ParameterValue(
+            type=getattr(ParameterType, f'PARAMETER_{kind.upper()}'), **{f'{kind}_value': value}
+        )
+        self.ask(
+            self.settings, SetParameters.Request(parameters=[Parameter(name=name, value=told)])
+        )
 
     def set_badly(self):
         """Set a parameter to what it can't be."""
         names = ['accuracy', 'rate', 'course', 'nothing', 'balls', 'real_time_factor', '']
         name = str(self.rng.choice(names))
-        bad = [-1.0, nan, inf, 1e9, 0.05] if name == 'real_time_factor' else ['x' * 3000, nan, -5, True, '']
+        bad = (
+            [-1.0, nan, inf, 1e9, 0.05]
+            if name == 'real_time_factor'
+            else ['x' * 3000, nan, -5, True, '']
+        )
         self.set(name, bad[self.rng.integers(len(bad))])
 
     def good_shot(self):
@@ -160,7 +216,9 @@ class Attacker(Golfer):
         self.ask(self.resets, Trigger.Request())
         before = len(self.results_of(GOOD, GOOD_SPIN))
         self.strike(GOOD, GOOD_SPIN)
-        wait_until(lambda: len(self.results_of(GOOD, GOOD_SPIN)) > before, 'the good shot ended', HANGS)
+        wait_until(
+            lambda: len(self.results_of(GOOD, GOOD_SPIN)) > before, 'the good shot ended', HANGS
+        )
         told = self.results_of(GOOD, GOOD_SPIN)[-1]
         return {name: told[name] for name in EXACT}
 
@@ -172,10 +230,16 @@ def memory(process):
 
 
 def messages(count, seed):
-    """Send so many malformed and as many extreme messages; returns what went wrong, a list of lines."""
+    """Send so many malformed and as many extreme messages.
+
+    Returns what went wrong, a list of lines.
+    """
     with domain():
-        sim = Process('sim_node', *parameters('/fuzzed', real_time_factor=0.0),
-                      environment={'PYTHONFAULTHANDLER': '1'})
+        sim = Process(
+            'sim_node',
+            *parameters('/fuzzed', real_time_factor=0.0),
+            environment={'PYTHONFAULTHANDLER': '1'},
+        )
         try:
             sim.wait_for(READY)
             attacker = Attacker('/fuzzed', seed)
@@ -199,11 +263,18 @@ def attacked(sim, attacker, count, seed):
         except pytest.fail.Exception as error:
             sim.popen.send_signal(SIGABRT)  # it says where it is
             sim.wait()
-            last = [message.data for message in attacker.journal if '"kind": "strike"' in message.data][-1:]
-            return [f'after {number} messages of seed {seed}: {error}: {sim.output[-3000:]}', *last]
+            last = [
+                message.data for message in attacker.journal if '"kind": "strike"' in message.data
+            ][-1:]
+            return [
+                f'after {number} messages of seed {seed}: {error}: {sim.output[-3000:]}',
+                *last,
+            ]
         if sim.popen.poll() is not None:
-            return [f'the sim ended with {sim.popen.poll()} after {number} messages of seed {seed}: '
-                    + sim.output[-3000:]]
+            return [
+                f'the sim ended with {sim.popen.poll()} after {number} messages of seed {seed}: '
+                + sim.output[-3000:]
+            ]
         if number == count:
             start = memory(sim)
     if attacker.good_shot() != expected:
@@ -214,13 +285,17 @@ def attacked(sim, attacker, count, seed):
     shots = json.loads(attacker.beats[-1].data)['shots']
     numbers = sorted(json.loads(message.data)['shot'] for message in attacker.all_results)
     if numbers != list(range(1, shots + 1)):
-        troubles.append(f'{shots} strikes, {len(numbers)} results, {len(set(numbers))} different ones')
+        troubles.append(
+            f'{shots} strikes, {len(numbers)} results, {len(set(numbers))} different ones'
+        )
     if 'Traceback' in sim.output:
-        troubles.append('a traceback: ' + sim.output[sim.output.index('Traceback'):][:900])
+        troubles.append('a traceback: ' + sim.output[sim.output.index('Traceback') :][:900])
     if grown > MEMORY:
         troubles.append(f'the sim grew by {grown:.0f} MB')
     took = time.monotonic() - began
-    print(f'{count} malformed and {count} extreme messages of seed {seed} in {took:.0f} s: '
-          f'{shots} strikes, {len(numbers)} results; the sim grew by {grown:.1f} MB in the second half',
-          flush=True)
+    print(
+        f'{count} malformed and {count} extreme messages of seed {seed} in {took:.0f} s: '
+        f'{shots} strikes, {len(numbers)} results; the sim grew by {grown:.1f} MB in the second half',
+        flush=True,
+    )
     return troubles

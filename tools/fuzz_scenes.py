@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Random scenes of allowed numbers, and five shots in each: what a course file may say, at its edges too."""
+
 import json
 from math import isfinite, pi
 from pathlib import Path
@@ -7,13 +21,12 @@ import shutil
 from time import process_time
 from typing import NamedTuple
 
-import numpy as np
-import yaml
-
 from golf_sim_ros.course import CourseError, load_course, shipped_courses
 from golf_sim_ros.physics import ACCURACY, Phase, Rejected, Result, World
 from golf_sim_ros.recording.journal import sealed
 from golf_sim_ros.recording.json_format import collision_text, result_text, state_text
+import numpy as np
+import yaml
 
 SHOTS = 5
 MOST_TIME = 5.0  # s of processor time that any call may take
@@ -55,24 +68,35 @@ def number(rng, low, high, *usual):
 
 def material(rng):
     """Entry of a material."""
-    law = {'law': 'quadratic', 'e0': number(rng, 0, 1, 0.5, 1.0), 'e1': number(rng, -10, 10, 0.0),
-           'e2': number(rng, -10, 10, 0.0), 'floor': number(rng, 0, 1, 0.1)}
+    law = {
+        'law': 'quadratic',
+        'e0': number(rng, 0, 1, 0.5, 1.0),
+        'e1': number(rng, -10, 10, 0.0),
+        'e2': number(rng, -10, 10, 0.0),
+        'floor': number(rng, 0, 1, 0.1),
+    }
     fields = {
         'restitution': [{'law': 'penner'}, number(rng, 0, 1, 0.5), law][rng.integers(3)],
         'tangential_restitution': number(rng, -1, 1, 0.0),
         'static_friction': number(rng, 0, 1e6, 0.4, 1.0),
         'dynamic_friction': number(rng, 0, 1e6, 0.3, 0.0),
         'rolling_resistance': number(rng, 0, 1e6, 0.1, 0.0),
-        'pivot_friction': number(rng, 0, 1e6, 0.002, 0.0), 'softness': number(rng, 0, 100, 1.0, 0.0)}
+        'pivot_friction': number(rng, 0, 1e6, 0.002, 0.0),
+        'softness': number(rng, 0, 100, 1.0, 0.0),
+    }
     kept = [name for name in fields if rng.random() < 0.6]
     return {name: fields[name] for name in kept}
 
 
 def ball(rng):
     """Entry of a ball."""
-    fields = {'mass': log_uniform(rng, 1e-6, 1000), 'radius': log_uniform(rng, 1e-3, 1.0),
-              'inertia': number(rng, 0.01, 1, 0.4), 'restitution': number(rng, 0, 1, 0.85),
-              'friction': number(rng, 0, 1e6, 0.2)}
+    fields = {
+        'mass': log_uniform(rng, 1e-6, 1000),
+        'radius': log_uniform(rng, 1e-3, 1.0),
+        'inertia': number(rng, 0.01, 1, 0.4),
+        'restitution': number(rng, 0, 1, 0.85),
+        'friction': number(rng, 0, 1e6, 0.2),
+    }
     return {name: value for name, value in fields.items() if rng.random() < 0.4}
 
 
@@ -80,8 +104,11 @@ def air(rng):
     """Entry of the air."""
     if rng.random() < 0.3:
         return {'altitude': number(rng, -1000, 11000, 0.0)}
-    return {'temperature': number(rng, 150, 400, 293.0), 'pressure': number(rng, 1.0, 1e7, 101325.0),
-            'relative_humidity': 0.0}
+    return {
+        'temperature': number(rng, 150, 400, 293.0),
+        'pressure': number(rng, 1.0, 1e7, 101325.0),
+        'relative_humidity': 0.0,
+    }
 
 
 def polygon(rng, size):
@@ -89,29 +116,47 @@ def polygon(rng, size):
     x, y = rng.uniform(-size, size, 2)
     angles = np.sort(rng.uniform(0, 2 * pi, rng.integers(3, 8)))
     away = rng.uniform(0.3, 1.0, len(angles)) * size
-    return [[round(float(x + r * np.cos(a)), 2), round(float(y + r * np.sin(a)), 2)]
-            for a, r in zip(angles, away)]
+    return [
+        [round(float(x + r * np.cos(a)), 2), round(float(y + r * np.sin(a)), 2)]
+        for a, r in zip(angles, away)
+    ]
 
 
 def ground(rng, folder):
     """Entries of random ground."""
     names = ['green', 'fairway', 'rough', 'sand']
     tilt = rng.normal(size=2) * rng.choice([0.0, 0.05, 0.5, 5.0])
-    shapes = [{'shape': 'plane', 'material': str(rng.choice(names)), 'normal': [*tilt.tolist(), 1.0]}]
+    shapes = [
+        {'shape': 'plane', 'material': str(rng.choice(names)), 'normal': [*tilt.tolist(), 1.0]}
+    ]
     for _ in range(rng.integers(0, 4)):
         normal = rng.normal(size=3).tolist()
         center = rng.uniform(-10, 10, 3).round(2).tolist()
-        shapes.append({'shape': 'patch', 'center': center, 'normal': normal,
-                       'length': number(rng, 1e-3, 100, 5.0), 'width': number(rng, 1e-3, 100, 5.0),
-                       'heading': float(rng.uniform(-7, 7)), 'material': str(rng.choice(names)),
-                       'one_sided': bool(rng.integers(2))})
+        shapes.append(
+            {
+                'shape': 'patch',
+                'center': center,
+                'normal': normal,
+                'length': number(rng, 1e-3, 100, 5.0),
+                'width': number(rng, 1e-3, 100, 5.0),
+                'heading': float(rng.uniform(-7, 7)),
+                'material': str(rng.choice(names)),
+                'one_sided': bool(rng.integers(2)),
+            }
+        )
     if rng.random() < 0.5:
         jump = log_uniform(rng, 1e-3, 1e4)
         heights = jump * rng.choice([rng.normal(size=(12, 9)), rng.integers(0, 2, (12, 9)) * 1.0])
         np.save(folder / 'random.npy', heights)
-        shapes.append({'shape': 'heightmap', 'heights': 'random.npy', 'material': str(rng.choice(names)),
-                       'origin': rng.uniform(-10, 0, 2).tolist(),
-                       'spacing': number(rng, 1e-3, 50, 0.5, 2.0)})
+        shapes.append(
+            {
+                'shape': 'heightmap',
+                'heights': 'random.npy',
+                'material': str(rng.choice(names)),
+                'origin': rng.uniform(-10, 0, 2).tolist(),
+                'spacing': number(rng, 1e-3, 50, 0.5, 2.0),
+            }
+        )
     return shapes
 
 
@@ -123,7 +168,11 @@ def scene(rng, folder):
         shutil.copy(file, folder)
     content = yaml.safe_load(path.read_text())
     if rng.random() < 0.5:
-        content = {'format': 1, 'ground': ground(rng, folder), 'tee': rng.uniform(-5, 5, 2).tolist()}
+        content = {
+            'format': 1,
+            'ground': ground(rng, folder),
+            'tee': rng.uniform(-5, 5, 2).tolist(),
+        }
         if rng.random() < 0.3:
             content['hole'] = rng.uniform(-9, 9, 2).tolist()
         if rng.random() < 0.3:
@@ -131,7 +180,9 @@ def scene(rng, folder):
         if rng.random() < 0.3:
             content['bounds'] = polygon(rng, 20.0)
     if rng.random() < 0.5:
-        content.setdefault('obstacles', []).extend(obstacle(rng) for _ in range(rng.integers(1, 4)))
+        content.setdefault('obstacles', []).extend(
+            obstacle(rng) for _ in range(rng.integers(1, 4))
+        )
     used = {shape['material'] for shape in content['ground']} | {'green', 'fairway', 'rough'}
     content['materials'] = {name: material(rng) for name in sorted(used) if rng.random() < 0.6}
     for name, entry in (('ball', ball), ('air', air)):
@@ -146,8 +197,13 @@ def obstacle(rng):
     radius = number(rng, 1e-3, 50, 0.3)
     if rng.random() < 0.5:
         return {'shape': 'sphere', 'center': place, 'radius': radius, 'material': 'wood'}
-    return {'shape': 'cylinder', 'base': place, 'radius': radius, 'height': number(rng, 1e-3, 100, 3.0),
-            'material': 'wood'}
+    return {
+        'shape': 'cylinder',
+        'base': place,
+        'radius': radius,
+        'height': number(rng, 1e-3, 100, 3.0),
+        'material': 'wood',
+    }
 
 
 def direction(rng):
@@ -187,7 +243,7 @@ def played(seed, folder):
     rng, watch, folder = np.random.default_rng(seed), Watch(), Path(folder)
     path = folder / 'scene.yaml'
     path.write_text(yaml.safe_dump(scene(rng, folder)))
-    names = ('ball', 'other', 'third')[:rng.choice([1, 1, 2, 3])]
+    names = ('ball', 'other', 'third')[: rng.choice([1, 1, 2, 3])]
     accuracy = str(rng.choice(list(ACCURACY)))
     try:
         exercise(load_course(path), names, accuracy)  # what comes now is timed
@@ -196,7 +252,9 @@ def played(seed, folder):
     except CourseError as error:
         return Outcome(str(error), (), 0.0, '')
     except ValueError as error:
-        return Outcome(f'World: {error}', (), 0.0, '' if len(names) > 1 else f'World refuses: {error}')
+        return Outcome(
+            f'World: {error}', (), 0.0, '' if len(names) > 1 else f'World refuses: {error}'
+        )
     try:
         statuses = [status for _ in range(SHOTS) for status in shot(world, rng, watch)]
     except Trouble as error:

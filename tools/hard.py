@@ -1,11 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Plays every hard case with every preset at ticks of 50, 250 and 1000 Hz, and writes docs/stability.md.
 
-The cases are those of test/physics/hard_cases, which say what is expected; `make test` plays each once.
-With them come those of hard_scenes.py, and random shots at what nothing may pass: so many at each target
-at each rate with each preset as `--shots` says (100,000), on all processors. Each part can be played
-alone, and the page then shows it beside what the others gave last.
+The cases are those of test/physics/hard_cases, which say what is expected; `make test` plays each
+once. With them come those of hard_scenes.py, and random shots at what nothing may pass: so many at
+each target at each rate with each preset as `--shots` says (100,000), on all processors. Each part
+can be played alone, and the page then shows it beside what the others gave last.
 """
+
 import argparse
 from concurrent.futures import ProcessPoolExecutor
 from itertools import product, repeat
@@ -43,8 +57,15 @@ of the rates, beside the range that is expected of it.
 def deviation(ball, ends):
     """How far a ball is from what is expected of it; 0 where nothing is."""
     pairs = [(ends.get('position', ()), ball.position), (ends.get('velocity', ()), ball.velocity)]
-    return max((abs(found - wanted) for expected, told in pairs for wanted, found in zip(expected, told)
-                if wanted is not None), default=0.0)
+    return max(
+        (
+            abs(found - wanted)
+            for expected, told in pairs
+            for wanted, found in zip(expected, told)
+            if wanted is not None
+        ),
+        default=0.0,
+    )
 
 
 def outcome(course, case, accuracy):
@@ -77,18 +98,27 @@ def cell(worst, failure, ends):
 def shoot(target, accuracy, rate, count):
     """How many of `count` shots pass a target, and how deep any ball gets into it [m]."""
     off, depth = TARGETS[target]((count, accuracy, rate))
-    print(f'{target}, {accuracy}, {rate} Hz: {off} of {count:,} passed, {depth:.1e} m deep', flush=True)
+    print(
+        f'{target}, {accuracy}, {rate} Hz: {off} of {count:,} passed, {depth:.1e} m deep',
+        flush=True,
+    )
     return off, depth
 
 
 def passed(count):
     """Table of how many of `count` shots passed each target, and how deep any ball got into it."""
-    lines = ['', '## Nothing is passed', '',
-             f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within',
-             '2 m, every fourth grazing), at each of the three rates, so many passed through.',
-             'In brackets: how deep any ball was found in it, at any tick [m]. Expected: 0, and no deeper',
-             'than 2e-6 m and five times what a preset lets a path be off.', '',
-             '| target | ' + ' | '.join(ACCURACY) + ' |', '|---|' + '---|' * len(ACCURACY)]
+    lines = [
+        '',
+        '## Nothing is passed',
+        '',
+        f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within',
+        '2 m, every fourth grazing), at each of the three rates, so many passed through.',
+        'In brackets: how deep any ball was found in it, at any tick [m]. Expected: 0, and no deeper',
+        'than 2e-6 m and five times what a preset lets a path be off.',
+        '',
+        '| target | ' + ' | '.join(ACCURACY) + ' |',
+        '|---|' + '---|' * len(ACCURACY),
+    ]
     settings = list(product(TARGETS, ACCURACY, RATES))
     with ProcessPoolExecutor() as pool:
         found = dict(zip(settings, pool.map(shoot, *zip(*settings), repeat(count))))
@@ -114,11 +144,18 @@ def scenes(count):
     """Tables of the cases that a line of YAML does not hold."""
     lines = []
     for title, some in SCENES.items():
-        lines += ['', f'## {title}', '', '| case | expected | ' + ' | '.join(ACCURACY) + ' |',
-                  '|---|---|' + '---|' * len(ACCURACY)]
+        lines += [
+            '',
+            f'## {title}',
+            '',
+            '| case | expected | ' + ' | '.join(ACCURACY) + ' |',
+            '|---|---|' + '---|' * len(ACCURACY),
+        ]
         for scene in some:
             cells = [played(scene, accuracy) for accuracy in ACCURACY]
-            lines.append(f'| {scene.name} | {scene.least:g} to {scene.most:g} | ' + ' | '.join(cells) + ' |')
+            lines.append(
+                f'| {scene.name} | {scene.least:g} to {scene.most:g} | ' + ' | '.join(cells) + ' |'
+            )
             print(lines[-1], flush=True)
     return lines
 
@@ -128,10 +165,17 @@ def cases(count):
     lines, failures, spreads = [], dict.fromkeys(ACCURACY, 0), []
     for file in sorted({file for file, _ in CASES}):
         path = BUILD / file.name
-        path.write_text(yaml.safe_dump({'format': 1, **yaml.safe_load(file.read_text())['course']}))
+        path.write_text(
+            yaml.safe_dump({'format': 1, **yaml.safe_load(file.read_text())['course']})
+        )
         course = load_course(path)
-        lines += ['', f'## {file.stem}', '', '| case | within | ' + ' | '.join(ACCURACY) + ' |',
-                  '|---|---|' + '---|' * len(ACCURACY)]
+        lines += [
+            '',
+            f'## {file.stem}',
+            '',
+            '| case | within | ' + ' | '.join(ACCURACY) + ' |',
+            '|---|---|' + '---|' * len(ACCURACY),
+        ]
         for _, case in (pair for pair in CASES if pair[0] == file):
             cells = []
             for accuracy in ACCURACY if 'accuracy' not in case else (case['accuracy'],):
@@ -143,9 +187,16 @@ def cases(count):
             lines.append(f'| {case["name"]} | {within} | ' + ' | '.join(cells) + ' |')
         print(f'{file.stem}: failures so far {failures}', flush=True)
     spread, name, accuracy = max(item for item in spreads if item[0] < inf)
-    return ['', '## Cases in lines of YAML', '', f'{len(CASES)} cases. Failures: '
-            + ', '.join(f'{accuracy} {count}' for accuracy, count in failures.items()) + '.',
-            f'Greatest difference of an end between the rates: {spread:.1e} m ({name}, {accuracy}).', *lines]
+    return [
+        '',
+        '## Cases in lines of YAML',
+        '',
+        f'{len(CASES)} cases. Failures: '
+        + ', '.join(f'{accuracy} {count}' for accuracy, count in failures.items())
+        + '.',
+        f'Greatest difference of an end between the rates: {spread:.1e} m ({name}, {accuracy}).',
+        *lines,
+    ]
 
 
 PARTS = {'scenes': scenes, 'shots': passed, 'cases': cases}
@@ -162,7 +213,9 @@ def main():
     for part in given.parts or PARTS:
         (BUILD / f'{part}.md').write_text('\n'.join(PARTS[part](given.shots)) + '\n')
         done = [BUILD / f'{part}.md' for part in PARTS if (BUILD / f'{part}.md').exists()]
-        (ROOT / 'docs' / 'stability.md').write_text(HEAD + ''.join(path.read_text() for path in done))
+        (ROOT / 'docs' / 'stability.md').write_text(
+            HEAD + ''.join(path.read_text() for path in done)
+        )
 
 
 if __name__ == '__main__':

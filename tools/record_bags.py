@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Records the bags of test/data/bags anew: one of each kind of play, with the sim and over DDS.
 
-Only who changes a law on purpose has a reason to: `test_recorded_bags.py` plays them again, to the bit.
-`record_bags.py KIND ...` records these kinds, without one all of them.
+Only who changes a law on purpose has a reason to: `test_recorded_bags.py` plays them again, to the
+bit. `record_bags.py KIND ...` records these kinds, without one all of them.
 """
+
 from functools import partial
 import json
 import os
@@ -37,20 +51,27 @@ class Player:
 
     def __init__(self, balls):
         self.node = rclpy.create_node('player')
-        self.shots = {ball: self.node.create_publisher(Twist, f'{ball}/shot', 10) for ball in balls}
-        self.places = {ball: self.node.create_publisher(PointStamped, f'{ball}/place', 10) for ball in balls}
+        self.shots = {
+            ball: self.node.create_publisher(Twist, f'{ball}/shot', 10) for ball in balls
+        }
+        self.places = {
+            ball: self.node.create_publisher(PointStamped, f'{ball}/place', 10) for ball in balls
+        }
         self.winds = self.node.create_publisher(Vector3Stamped, 'wind', 10)
         self.results, self.entries = [], []
         for topic, kept in (('shot/result', self.results), ('journal', self.entries)):
             self.node.create_subscription(String, topic, partial(keep_told, kept), EVENTS)
         self.still = {ball: False for ball in balls}
         for ball in balls:
-            self.node.create_subscription(TwistStamped, f'{ball}/twist', partial(self.look_at, ball), 10)
+            self.node.create_subscription(
+                TwistStamped, f'{ball}/twist', partial(self.look_at, ball), 10
+            )
         self.struck = 0
         publishers = [*self.shots.values(), *self.places.values(), self.winds]
         self.wait(lambda: self.entries and all(one.get_subscription_count() for one in publishers))
         since = time.monotonic()
-        self.wait(lambda: time.monotonic() > since + 2.0)  # until the sim knows of the publishers, too
+        # until the sim knows of the publishers, too
+        self.wait(lambda: time.monotonic() > since + 2.0)
 
     def wait(self, condition, meanwhile=lambda: None):
         """Listen until `condition()`."""
@@ -91,8 +112,12 @@ class Player:
         message = PointStamped()
         message.point.x, message.point.y = x, y
         self.places[ball].publish(message)
-        self.wait(lambda: any(entry['kind'] == 'place' and entry['ball'] == ball
-                              for entry in self.entries[before:]))
+        self.wait(
+            lambda: any(
+                entry['kind'] == 'place' and entry['ball'] == ball
+                for entry in self.entries[before:]
+            )
+        )
         self.still[ball] = False
 
     def blow(self, x, y):
@@ -103,7 +128,10 @@ class Player:
 
     def rest(self, meanwhile=lambda: None):
         """Wait until every shot has ended."""
-        self.wait(lambda: sum(one['status'] != 'rejected' for one in self.results) >= self.struck, meanwhile)
+        self.wait(
+            lambda: sum(one['status'] != 'rejected' for one in self.results) >= self.struck,
+            meanwhile,
+        )
 
 
 def keep_told(kept, message):
@@ -137,6 +165,7 @@ def gusts(player):
         if time.monotonic() >= due[0]:
             due[0] = time.monotonic() + 0.1
             player.blow(chance.gauss(6.0, 1.5), chance.gauss(-2.0, 1.5))
+
     for velocity, spin in ((DRIVE, DRAW), (IRON, BACKSPIN)):
         player.strike('ball', velocity, spin)
         player.rest(blow)
@@ -144,19 +173,33 @@ def gusts(player):
 
 def water_and_out_of_bounds(player):
     """Into the pond, skipping over it, out of bounds, through the leaves."""
-    for velocity, spin in (((11.0, -7.0, 8.0), (0.0, 0.0, 0.0)), ((22.0, -14.0, 3.0), (0.0, -300.0, 0.0)),
-                           (IRON, (0.0, 0.0, 0.0)), ((16.0, 11.0, 9.0), (0.0, -100.0, 0.0))):
+    for velocity, spin in (
+        ((11.0, -7.0, 8.0), (0.0, 0.0, 0.0)),
+        ((22.0, -14.0, 3.0), (0.0, -300.0, 0.0)),
+        (IRON, (0.0, 0.0, 0.0)),
+        ((16.0, 11.0, 9.0), (0.0, -100.0, 0.0)),
+    ):
         player.strike('ball', velocity, spin)
         player.rest()
 
 
 def pile(player):
     """Five balls come to rest on each other at the bottom of a pit."""
-    for ball, x, y in (('a', 0.7, 0.0), ('b', -0.7, 0.02), ('c', 0.01, 0.7), ('d', -0.02, -0.7),
-                       ('e', 0.7, 0.3)):
+    for ball, x, y in (
+        ('a', 0.7, 0.0),
+        ('b', -0.7, 0.02),
+        ('c', 0.01, 0.7),
+        ('d', -0.02, -0.7),
+        ('e', 0.7, 0.3),
+    ):
         player.place(ball, x, y)
-    for ball, x, y in (('a', -0.9, 0.0), ('b', 0.9, 0.0), ('c', 0.0, -0.9), ('d', 0.0, 0.9),
-                       ('e', -0.9, -0.3)):
+    for ball, x, y in (
+        ('a', -0.9, 0.0),
+        ('b', 0.9, 0.0),
+        ('c', 0.0, -0.9),
+        ('d', 0.0, 0.9),
+        ('e', -0.9, -0.3),
+    ):
         player.strike(ball, (x, y, 0.0))
     player.rest()
 
@@ -173,8 +216,14 @@ KINDS = {  # play, course, balls, more parameters
 def record(kind):
     """Record one kind of play, and keep what `resimulate` looks at."""
     course, balls, more = KINDS[kind]
-    values = {'course': course, 'balls': f'[{",".join(balls)}]', 'real_time_factor': 5.0,
-              'publish_rate': 10.0, 'engine': 'python', **more}
+    values = {
+        'course': course,
+        'balls': f'[{",".join(balls)}]',
+        'real_time_factor': 5.0,
+        'publish_rate': 10.0,
+        'engine': 'python',
+        **more,
+    }
     words = [word for name, value in values.items() for word in ('-p', f'{name}:={value}')]
     with TemporaryDirectory() as folder:
         whole = Path(folder) / 'whole'
@@ -205,7 +254,9 @@ def keep(whole, path):
 
 def main():
     """Record the kinds that were asked for."""
-    os.environ.update(ROS_DOMAIN_ID=str(1 + os.getpid() % 100), ROS_AUTOMATIC_DISCOVERY_RANGE='LOCALHOST')
+    os.environ.update(
+        ROS_DOMAIN_ID=str(1 + os.getpid() % 100), ROS_AUTOMATIC_DISCOVERY_RANGE='LOCALHOST'
+    )
     BAGS.mkdir(parents=True, exist_ok=True)
     rclpy.init()
     try:

@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The simulator and the wind as processes of one program, which ends them."""
 
 from contextlib import contextmanager
@@ -16,8 +29,8 @@ from std_msgs.msg import String
 
 BIN = Path(sys.executable).parent
 NODES = ('sim_node', 'wind_node')
-FIRST_START = 60.0      # s: a start on a slow machine
-PATIENCE = 15.0         # s: after a signal a node has ended, or hangs
+FIRST_START = 60.0  # s: a start on a slow machine
+PATIENCE = 15.0  # s: after a signal a node has ended, or hangs
 EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -29,7 +42,8 @@ class Failed(RuntimeError):
 def nodes(*more):
     """The processes of `NODES` by name; they get SIGINT at the end, and must end with exit code 0.
 
-    `more` are further commands, sequences of a program's name and its arguments. They are stopped last.
+    `more` are further commands, sequences of a program's name and its arguments. They are stopped
+    last.
     """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
@@ -71,7 +85,11 @@ class Spectator:
         self.node = rclpy.create_node('spectator')
         self.node.create_subscription(PoseStamped, 'ball/pose', self.poses.append, 10)
         self.node.create_subscription(
-            String, 'shot/result', lambda message: self.results.append(json.loads(message.data)), EVENTS)
+            String,
+            'shot/result',
+            lambda message: self.results.append(json.loads(message.data)),
+            EVENTS,
+        )
 
     def wait_for_ball(self):
         """Wait until the ball is seen on the tee."""

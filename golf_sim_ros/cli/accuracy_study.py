@@ -1,12 +1,29 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Measure what accuracy and each effect cost in time, here: CSV, pictures, Markdown. Needs no ROS."""
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Measure what accuracy and each effect cost in time, here: CSV, pictures, Markdown.
+
+Needs no ROS.
+"""
+
 import argparse
 from pathlib import Path
 import sys
 
+from .pipes import in_pipes
 from ..optional_packages import how_to_get
 from ..physics.engine.engines import prefer_compiled
-from .pipes import in_pipes
 
 LIBRARIES = 'scipy', 'matplotlib', 'tqdm'
 NEEDED = f'accuracy_study needs {", ".join(LIBRARIES)}: {how_to_get("study", *LIBRARIES)}'
@@ -17,10 +34,19 @@ def main(args=None):
     """Run the study and write its page; return the exit code."""
     prefer_compiled()
     parser = argparse.ArgumentParser(prog='accuracy_study', description=__doc__)
-    parser.add_argument('--quick', action='store_true',
-                        help='four scenes and no effects, a minute or two; the full study takes about ten')
-    parser.add_argument('-o', '--output', type=Path, default=Path('docs'), metavar='FOLDER',
-                        help='where accuracy.md, its tables and its pictures go (%(default)s)')
+    parser.add_argument(
+        '--quick',
+        action='store_true',
+        help='four scenes and no effects, a minute or two; the full study takes about ten',
+    )
+    parser.add_argument(
+        '-o',
+        '--output',
+        type=Path,
+        default=Path('docs'),
+        metavar='FOLDER',
+        help='where accuracy.md, its tables and its pictures go (%(default)s)',
+    )
     given = parser.parse_args(args)
     try:
         from tqdm import tqdm

@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Compile the physics beforehand, once a machine or image: the compiled engine then starts at once."""
+
 import argparse
 import sys
 
+from .pipes import in_pipes
 from ..course import CourseError, load_course
 from ..physics import World
 from ..physics.jit import cache
 from ..physics.jit.build import Build, READY
-from .pipes import in_pipes
 
 EPILOG = """One program serves every course with one ball, another every course with several. They are
 kept in a folder of their own for each version of the physics; GOLF_SIM_ROS_CACHE names its parent. The exit
@@ -23,7 +37,9 @@ def main(args=None):
     options = parser().parse_args(args)
     try:
         course = load_course(options.course)
-        worlds = [World(course, PROGRAMS[name], engine='python') for name in options.programs or PROGRAMS]
+        worlds = [
+            World(course, PROGRAMS[name], engine='python') for name in options.programs or PROGRAMS
+        ]
         reason = compiled([world.part for world in worlds])
     except CourseError as error:
         reason = ' '.join(str(error).split())
@@ -39,10 +55,18 @@ def main(args=None):
 def parser():
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='compile_physics', description=__doc__, epilog=EPILOG)
-    reader.add_argument('--course', default='golf_without_friends',
-                        help='only a course with effects of its own needs programs of its own')
-    reader.add_argument('--only', dest='programs', action='append', choices=list(PROGRAMS),
-                        help='one of the programs; all if not given')
+    reader.add_argument(
+        '--course',
+        default='golf_without_friends',
+        help='only a course with effects of its own needs programs of its own',
+    )
+    reader.add_argument(
+        '--only',
+        dest='programs',
+        action='append',
+        choices=list(PROGRAMS),
+        help='one of the programs; all if not given',
+    )
     return reader
 
 
@@ -58,7 +82,10 @@ def compiled(parts):
 
 
 def bar():
-    """Progress bar of a hundred percent with the time left, where tqdm is installed; else `NoBar`."""
+    """Progress bar of a hundred percent with the time left, where tqdm is installed.
+
+    Else `NoBar`.
+    """
     try:
         from tqdm import tqdm
     except ImportError:

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Programs in pipes: where their output is not read on, as in ``resimulate BAG | head -1``, they end."""
+
 from functools import wraps
 import os
 import sys
@@ -9,6 +23,7 @@ UNREAD = 141  # exit code of a program that ends so: 128 and the number of SIGPI
 
 def in_pipes(main):
     """`main` of a program, which returns an exit code, made to end quietly once its output is not read."""
+
     @wraps(main)
     def run(args=None):
         try:
@@ -21,6 +36,7 @@ def in_pipes(main):
         except BrokenPipeError:
             print_nowhere()
             return UNREAD
+
     return run
 
 

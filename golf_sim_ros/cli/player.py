@@ -1,27 +1,41 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A ROS node that strikes a ball and waits for the result."""
+
 import json
 from math import atan2, hypot
 import os
 import sys
 import time
 
-import rclpy
 from geometry_msgs.msg import PoseStamped, Twist
+import rclpy
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
+from .reachability import Reach, SILENT
 from ..nodes.conversions import fill
 from ..nodes.older_rclpy import publisher_count
-from .reachability import Reach, SILENT
 
 # A result repeats the strike rounded to 1e-4.
 ROUNDING = 0.6e-4
 
 # A sim rejects a shot in its next step, unless it is paused.
-AT_ONCE = 1.0   # s
+AT_ONCE = 1.0  # s
 
 # Volatile, so that no earlier shot's result is taken for ours.
 RESULT_QOS = QoSProfile(depth=100)
@@ -50,8 +64,12 @@ class Player(Node):
     """
 
     def __init__(self, ball=None, namespace=None, timeout=5.0, wait=60.0):
-        super().__init__(f'shoot_{os.getpid()}', namespace=namespace, start_parameter_services=False,
-                         enable_rosout=False)
+        super().__init__(
+            f'shoot_{os.getpid()}',
+            namespace=namespace,
+            start_parameter_services=False,
+            enable_rosout=False,
+        )
         self.ball = ball
         self.timeout, self.wait = timeout, wait
         self.received, self.number, self.said = 0, None, ''
@@ -59,11 +77,15 @@ class Player(Node):
         self.results, self.position, self.markers = [], None, None
         self.struck_at, self.first_position = time.monotonic(), None
         self._shots = self.create_publisher(Twist, f'{ball}/shot' if ball else 'shot', 10)
-        self._results = self.create_subscription(String, 'shot/result', self._take_result, RESULT_QOS)
+        self._results = self.create_subscription(
+            String, 'shot/result', self._take_result, RESULT_QOS
+        )
         self.reach = Reach(self)
-        self._poses = self.create_subscription(PoseStamped, f'{ball or "ball"}/pose', self._take_pose, 10)
-        # Last: subscriptions are announced in order, so the sim that sends us its course has already
-        # found the one for results.
+        self._poses = self.create_subscription(
+            PoseStamped, f'{ball or "ball"}/pose', self._take_pose, 10
+        )
+        # Last: subscriptions are announced in order, so the sim that sends us its course has
+        # already found the one for results.
         self.create_subscription(MarkerArray, 'course/markers', self._take_markers, MARKERS_QOS)
 
     @property
@@ -82,7 +104,9 @@ class Player(Node):
         if not self._wait(self._is_reachable, self.timeout, self._notice_absence):
             raise NoShot(f'no sim answers on {self.shot_topic} within {self.timeout:g} s')
         if not self._wait(lambda: self.markers is not None, self.timeout):
-            raise NoShot(f'a sim listens on {self.shot_topic}, but shows no course within {self.timeout:g} s')
+            raise NoShot(
+                f'a sim listens on {self.shot_topic}, but shows no course within {self.timeout:g} s'
+            )
 
     def _is_reachable(self):
         if not self._shots.get_subscription_count():
@@ -121,11 +145,17 @@ class Player(Node):
             If there is no hole or the ball cannot be found.
         """
         self.find_sim()
-        holes = [marker.pose.position for marker in self.markers if (marker.ns, marker.id) == ('hole', 0)]
+        holes = [
+            marker.pose.position
+            for marker in self.markers
+            if (marker.ns, marker.id) == ('hole', 0)
+        ]
         if not holes:
             raise NoShot('this course has no hole to aim at')
         if not self._wait(lambda: self.position is not None, self.timeout):
-            raise NoShot(f'no ball on {self._poses.topic_name}; name the one to strike with --ball')
+            raise NoShot(
+                f'no ball on {self._poses.topic_name}; name the one to strike with --ball'
+            )
         x, y = holes[0].x - self.position.x, holes[0].y - self.position.y
         return atan2(y, x), hypot(x, y)
 
@@ -168,25 +198,37 @@ class Player(Node):
         self.received = beat['shots']
         self._lasting = [
             self.create_subscription(String, 'shot/result', self._take_result, LASTING_QOS),
-            self.create_subscription(String, 'journal', lambda message: self._take_entry(
-                message, list(velocity), list(spin)), LASTING_QOS)]
+            self.create_subscription(
+                String,
+                'journal',
+                lambda message: self._take_entry(message, list(velocity), list(spin)),
+                LASTING_QOS,
+            ),
+        ]
         return beat
 
     def _take_entry(self, message, velocity, spin):
         entry = json.loads(message.data)
         if entry['kind'] != 'strike' or entry['shot'] <= self.received or self.number is not None:
             return
-        if (entry['velocity'], entry['spin']) == (velocity, spin) and self.ball in (None, entry['ball']):
+        if (entry['velocity'], entry['spin']) == (velocity, spin) and self.ball in (
+            None,
+            entry['ball'],
+        ):
             self.number = entry['shot']
 
     def _look_after(self, struck):
-        """Say what became of the sim; raise `NoShot` where it was lost, or has not taken the strike."""
+        """Say what became of the sim.
+
+        Raise `NoShot` where it was lost, or has not taken the strike.
+        """
         now = self.reach.last
         if now['session'] != struck['session']:
             raise NoShot('the sim was started anew: the shot is lost')
         if self.reach.silence() > SILENT + self.wait:
-            raise NoShot('the sim went away before the shot ended, '
-                         f'and was not back within {self.wait:g} s')
+            raise NoShot(
+                f'the sim went away before the shot ended, and was not back within {self.wait:g} s'
+            )
         if self.reach.is_lost():
             self._say(f'the sim cannot be reached; waiting for it, {self.wait:g} s at most')
         elif now['paused']:
@@ -197,7 +239,9 @@ class Player(Node):
             raise NoShot('nobody took the strike: it was lost on its way; strike again')
 
     def _own_result(self, velocity, spin):
-        return next((result for result in self.results if self._is_own(result, velocity, spin)), None)
+        return next(
+            (result for result in self.results if self._is_own(result, velocity, spin)), None
+        )
 
     def _is_own(self, result, velocity, spin):
         if self.ball and result['ball'] != self.ball or result['shot'] <= self.received:

@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Draw a recorded play: from the side, from above, over time, and in numbers. Needs no ROS."""
+
 import argparse
 import sys
 
+from .pipes import in_pipes
 from ..course import CourseError, load_course
 from ..optional_packages import how_to_get
 from ..recording.bag import BagError, read_bag
 from ..recording.replay import course_of
-from .pipes import in_pipes
 
 NEEDED = f'plot_play needs matplotlib: {how_to_get("plot", "matplotlib")}'
 
@@ -37,14 +51,27 @@ def parser():
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='plot_play', description=__doc__)
     reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
-    reader.add_argument('-o', '--output', default='play.png', metavar='FILE',
-                        help='picture to write: .png, .svg or .pdf (%(default)s)')
-    reader.add_argument('--shots', type=int, nargs='+', metavar='N', help='only these, by their numbers')
+    reader.add_argument(
+        '-o',
+        '--output',
+        default='play.png',
+        metavar='FILE',
+        help='picture to write: .png, .svg or .pdf (%(default)s)',
+    )
+    reader.add_argument(
+        '--shots', type=int, nargs='+', metavar='N', help='only these, by their numbers'
+    )
     reader.add_argument('--namespace', help='sim to draw, where the bag holds several')
-    reader.add_argument('--course', help='name or path of the course, where the bag does not say or it moved')
+    reader.add_argument(
+        '--course', help='name or path of the course, where the bag does not say or it moved'
+    )
     reader.add_argument('--title', default='', help="instead of the course's name")
-    reader.add_argument('--dpi', type=dots, default=150, help='pixels an inch; the picture is 12 inches wide '
-                        '(%(default)s)')
+    reader.add_argument(
+        '--dpi',
+        type=dots,
+        default=150,
+        help='pixels an inch; the picture is 12 inches wide (%(default)s)',
+    )
     return reader
 
 
@@ -58,13 +85,17 @@ def dots(text):
 def chosen(plays, options, recorded):
     """The first of the recorded `plays` that has shots to be drawn, and these."""
     if options.namespace is not None:
-        plays = [play for play in plays if play.namespace.strip('/') == options.namespace.strip('/')]
+        plays = [
+            play for play in plays if play.namespace.strip('/') == options.namespace.strip('/')
+        ]
     found = [(play, wanted(recorded(play), options.shots)) for play in plays]
     found = [(play, shots) for play, shots in found if shots]
     if not found:
         raise NoPicture(f'{options.bag}: no such shot was recorded with its path and end')
     if len(found) > 1:
-        others = ', '.join(f'{play.namespace or "/"}: {len(shots)} shots' for play, shots in found[1:])
+        others = ', '.join(
+            f'{play.namespace or "/"}: {len(shots)} shots' for play, shots in found[1:]
+        )
         note(f'{found[0][0].namespace or "/"} is drawn; the bag also holds {others}')
     return found[0]
 

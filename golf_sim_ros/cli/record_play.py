@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Record a play to a rosbag2 bag, where `ros2 bag record` is not installed."""
+
 import argparse
 from datetime import datetime
 from functools import partial
@@ -13,12 +27,12 @@ from rclpy.serialization import deserialize_message
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
+from .pipes import in_pipes, say
+from .play_topics import of_ball, OF_SIM
 from ..nodes.environment import complete_environment, unsafe
 from ..nodes.lifecycle import Ending, EventsExecutor
 from ..recording.bag_writer import BagWriter, CannotRecord
 from ..recording.journal import JournalError, opened
-from .pipes import in_pipes, say
-from .play_topics import OF_SIM, of_ball
 
 STORAGES = ('mcap', 'sqlite3')
 LINGER = 0.3  # s after the signal, for messages still on their way
@@ -34,12 +48,14 @@ class Recorder(Node):
     namespace : str or None
         Of the sim.
     balls : sequence of str
-        Their topics are followed at once; those of other balls as soon as the sim's journal names them.
+        Their topics are followed at once; those of other balls as soon as the sim's journal names
+        them.
     """
 
     def __init__(self, bag, namespace=None, balls=()):
-        super().__init__('record_play', namespace=namespace, start_parameter_services=False,
-                         enable_rosout=False)
+        super().__init__(
+            'record_play', namespace=namespace, start_parameter_services=False, enable_rosout=False
+        )
         self.bag, self.topics, self.balls, self.named = bag, {}, [], list(balls)
         for topic in OF_SIM:
             self.follow(topic)
@@ -47,7 +63,9 @@ class Recorder(Node):
     def follow(self, topic):
         """Record a topic from now on."""
         write = partial(self.on_message, topic)
-        subscription = self.create_subscription(topic.kind, topic.name, write, topic.requested(), raw=True)
+        subscription = self.create_subscription(
+            topic.kind, topic.name, write, topic.requested(), raw=True
+        )
         self.topics[subscription.topic_name] = topic, subscription
 
     def follow_named(self):
@@ -73,8 +91,10 @@ class Recorder(Node):
         """Begin a topic in the bag with the QoS that is offered on it now, or usually."""
         if name not in self.bag.connections:
             offers = [info.qos_profile for info in self.get_publishers_info_by_topic(name)]
-            profiles = {(offer.reliability.name, offer.durability.name, topic.offered.depth)
-                        for offer in offers or [topic.offered]}
+            profiles = {
+                (offer.reliability.name, offer.durability.name, topic.offered.depth)
+                for offer in offers or [topic.offered]
+            }
             self.bag.add(name, topic.type_name, sorted(profiles))
 
     def complete(self):
@@ -109,10 +129,19 @@ def record(recorder, ending):
 def parser():
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='record_play', description=__doc__)
-    reader.add_argument('-o', '--output', default=f'{datetime.now():play_%Y_%m_%d_%H_%M_%S}',
-                        help='folder to make; default: play_ with date and time')
-    reader.add_argument('--balls', nargs='+', default=[], metavar='NAME',
-                        help='balls to follow from the start; others follow once the sim names them')
+    reader.add_argument(
+        '-o',
+        '--output',
+        default=f'{datetime.now():play_%Y_%m_%d_%H_%M_%S}',
+        help='folder to make; default: play_ with date and time',
+    )
+    reader.add_argument(
+        '--balls',
+        nargs='+',
+        default=[],
+        metavar='NAME',
+        help='balls to follow from the start; others follow once the sim names them',
+    )
     reader.add_argument('--namespace', help='namespace of the sim')
     reader.add_argument('--storage', choices=STORAGES, default='mcap')
     return reader

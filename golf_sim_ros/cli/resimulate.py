@@ -1,16 +1,30 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Run recorded play again, without ROS: whether it is the same, and what another accuracy changes."""
+
 import argparse
 from math import dist
 import sys
 
+from .pipes import in_pipes
 from .. import __version__
 from ..physics import ACCURACY
 from ..physics.jit.build import READY
 from ..recording.bag import BagError, read_bag
 from ..recording.journal import made_with
 from ..recording.replay import CLOSE, difference, engine_of, rerun, shots, tick_of, timed, world_of
-from .pipes import in_pipes
 
 EPILOG = """Each shot is run by the engine that played it: the same bits. Where the compiled engine is missing
 here, plain Python takes its place, and has to agree to 1e-9. The exit code is 0 when every shot is the same,
@@ -38,7 +52,9 @@ def parser():
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='resimulate', description=__doc__, epilog=EPILOG)
     reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
-    reader.add_argument('--accuracy', choices=list(ACCURACY), help='also play every shot at this accuracy')
+    reader.add_argument(
+        '--accuracy', choices=list(ACCURACY), help='also play every shot at this accuracy'
+    )
     reader.add_argument('--course', help='name or path of the course, if it is not where it was')
     return reader
 
@@ -49,7 +65,11 @@ def resimulated(play, options):
     introduce(play, world)
     found, engines = shots(play), engines_here(play, world)
     same = [retold(play, world, shot, options.accuracy, engines) for shot in found]
-    alike = 'identical' if {engine_of(play, shot) for shot in found} <= engines else f'the same to {CLOSE:g}'
+    alike = (
+        'identical'
+        if {engine_of(play, shot) for shot in found} <= engines
+        else f'the same to {CLOSE:g}'
+    )
     print(f'{sum(same)} of {len(found)} {alike}', flush=True)
     return all(same)
 
@@ -57,13 +77,21 @@ def resimulated(play, options):
 def introduce(play, world):
     """Print what is run again, and a note if versions or processor are not those of the recording."""
     config = play.config
-    print(f'{play.namespace or "/"}: {world.course.name}, {config["parameters"]["rate"]:g} ticks a second, '
-          f'accuracy {config["parameters"]["accuracy"]}')
+    print(
+        f'{play.namespace or "/"}: {world.course.name}, {config["parameters"]["rate"]:g} ticks a second, '
+        f'accuracy {config["parameters"]["accuracy"]}'
+    )
     then = {'golf_sim_ros': config['version'], **config['made_with']}
     now = {'golf_sim_ros': __version__, **made_with()}
-    others = [f'{name} {then.get(name)} then, {now[name]} now' for name in now if then.get(name) != now[name]]
+    others = [
+        f'{name} {then.get(name)} then, {now[name]} now'
+        for name in now
+        if then.get(name) != now[name]
+    ]
     if others:
-        print(f'note: {"; ".join(others)}: the same bits are promised only where these are the same')
+        print(
+            f'note: {"; ".join(others)}: the same bits are promised only where these are the same'
+        )
 
 
 def engines_here(play, world):
@@ -76,13 +104,19 @@ def engines_here(play, world):
         build.wait()
     if build.state == READY:
         return {'python', 'compiled'}
-    print(f'note: recorded with the compiled engine, run again in plain Python, which agrees to '
-          f'{CLOSE:g}: {build.reason}', flush=True)
+    print(
+        f'note: recorded with the compiled engine, run again in plain Python, which agrees to '
+        f'{CLOSE:g}: {build.reason}',
+        flush=True,
+    )
     return {'python'}
 
 
 def retold(play, world, shot, accuracy, engines):
-    """Run one shot, by its engine if that is one of `engines`, and print the line; whether it is the same."""
+    """Run one shot, by its engine if that is one of `engines`, and print the line.
+
+    Whether it is the same.
+    """
     name = f'shot {shot.strike["shot"]} ({shot.strike["ball"]})'
     if shot.gap:
         print(f'{name}: journal entries {shot.gap} are missing: it cannot be run again')
@@ -93,11 +127,15 @@ def retold(play, world, shot, accuracy, engines):
     found = difference(play, shot, again, exact=world.engine == engine)
     if found:
         after = (found.tick - shot.strike['tick']) * tick_of(play)
-        print(f'{name}: differs first at tick {found.tick}, {after:g} s after the strike, in {found.field}: '
-              f'{found.recorded} recorded, {found.again} again')
+        print(
+            f'{name}: differs first at tick {found.tick}, {after:g} s after the strike, in {found.field}: '
+            f'{found.recorded} recorded, {found.again} again'
+        )
     else:
         alike = 'identical' if world.engine == engine else f'the same to {CLOSE:g} in plain Python'
-        print(f'{name}: {alike}' + ('' if shot.rest else ', as far as it was recorded'), flush=True)
+        print(
+            f'{name}: {alike}' + ('' if shot.rest else ', as far as it was recorded'), flush=True
+        )
     if accuracy and again.result:
         print('  ' + compared(world, shot, tick_of(play), accuracy), flush=True)
     return found is None
@@ -107,7 +145,9 @@ def compared(world, shot, tick, accuracy):
     """One line on what another accuracy changes in a shot."""
     rest, time = timed(world, shot, tick)
     other, faster = timed(world, shot, tick, accuracy)
-    times = f'{1e3 * time:.3f} ms at {shot.strike["accuracy"]}, {1e3 * faster:.3f} ms at {accuracy}'
+    times = (
+        f'{1e3 * time:.3f} ms at {shot.strike["accuracy"]}, {1e3 * faster:.3f} ms at {accuracy}'
+    )
     if rest is None or other is None:
         return f'ended by a reset; {times}'
     return f'rest moves by {dist(rest, other):.3g} m; {times}'

@@ -1,12 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Table of a `shot/result`, for people to read."""
 
 ENDINGS = {
-    'at_rest': 'at rest', 'holed': 'in the hole', 'water': 'in the water',
-    'out_of_bounds': 'out of bounds', 'time_limit': 'still moving at the time limit',
+    'at_rest': 'at rest',
+    'holed': 'in the hole',
+    'water': 'in the water',
+    'out_of_bounds': 'out of bounds',
+    'time_limit': 'still moving at the time limit',
 }
 LABEL = 15  # width of the column of labels
-WIDTH = 8   # of that of the numbers, two digits after the point, for putts
+WIDTH = 8  # of that of the numbers, two digits after the point, for putts
 
 
 def result_table(result, units):
@@ -31,7 +47,9 @@ def result_table(result, units):
 
 def _ending(result):
     ending = ENDINGS.get(result['status'], result['status'])
-    return f'{ending}, {result["lie"]}' if result['status'] == 'at_rest' and result['lie'] else ending
+    return (
+        f'{ending}, {result["lie"]}' if result['status'] == 'at_rest' and result['lie'] else ending
+    )
 
 
 def _flight(result, units):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Hit one shot, typed as a launch monitor shows it, and print how it ends."""
+
 import sys
 
 import rclpy
@@ -7,14 +21,14 @@ from rclpy.exceptions import NameValidationException
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from ..nodes.environment import complete_environment, unsafe
-from ..nodes.lifecycle import Ending
-from ..shot_input.launch_monitor import Launch, parted, velocity_and_spin
-from ..shot_input.units import UNITS
 from .pipes import in_pipes
 from .player import NoShot, Player
 from .result_table import result_table
 from .shoot_arguments import parser
+from ..nodes.environment import complete_environment, unsafe
+from ..nodes.lifecycle import Ending
+from ..shot_input.launch_monitor import Launch, parted, velocity_and_spin
+from ..shot_input.units import UNITS
 
 
 def parsed(argv):
@@ -50,7 +64,8 @@ def launched(options):
         speed=_given(options.speed, units.speed, average.speed),
         launch=_given(options.launch, units.angle, average.launch),
         azimuth=_given(options.azimuth, units.angle, 0.0),
-        **_spins(options, units, average))
+        **_spins(options, units, average),
+    )
 
 
 def _average(options):
@@ -58,7 +73,9 @@ def _average(options):
     hit, power = options.club, options.power
     if hit is not None and hit.launch is not None:
         power = 1.0 if power is None else power
-        return hit.launch._replace(speed=power * hit.launch.speed, backspin=power * hit.launch.backspin)
+        return hit.launch._replace(
+            speed=power * hit.launch.speed, backspin=power * hit.launch.backspin
+        )
     if power is not None:
         raise ValueError('--power needs a club that has an average shot: any but the putter')
     if options.speed is None:
@@ -87,10 +104,14 @@ def _given(value, unit, otherwise):
 
 def publish_line(topic, velocity, spin):
     """Line that strikes the ball when it is pasted into a shell, in full precision."""
-    linear, angular = (', '.join(f'{axis}: {_yaml(number)}' for axis, number in zip('xyz', vector))
-                       for vector in (velocity, spin))
-    return (f'ros2 topic pub --once {topic} geometry_msgs/msg/Twist '
-            f"'{{linear: {{{linear}}}, angular: {{{angular}}}}}'")
+    linear, angular = (
+        ', '.join(f'{axis}: {_yaml(number)}' for axis, number in zip('xyz', vector))
+        for vector in (velocity, spin)
+    )
+    return (
+        f'ros2 topic pub --once {topic} geometry_msgs/msg/Twist '
+        f"'{{linear: {{{linear}}}, angular: {{{angular}}}}}'"
+    )
 
 
 def _yaml(number):
@@ -101,12 +122,16 @@ def _yaml(number):
 
 def described(launch, hit, units):
     """One line that describes the launch."""
+
     def show(number, unit, digits=1):
         return f'{round(number / unit.size, digits) + 0.0:.{digits}f} {unit.name}'
-    return (f'{hit.name if hit else "shot"}: {show(launch.speed, units.speed)}, '
-            f'launch {show(launch.launch, units.angle)}, azimuth {show(launch.azimuth, units.angle)}, '
-            f'backspin {show(launch.backspin, units.spin, 0)}, '
-            f'sidespin {show(launch.sidespin, units.spin, 0)}')
+
+    return (
+        f'{hit.name if hit else "shot"}: {show(launch.speed, units.speed)}, '
+        f'launch {show(launch.launch, units.angle)}, azimuth {show(launch.azimuth, units.angle)}, '
+        f'backspin {show(launch.backspin, units.spin, 0)}, '
+        f'sidespin {show(launch.sidespin, units.spin, 0)}'
+    )
 
 
 def shoot(player, options, launch):
@@ -130,7 +155,9 @@ def main(args=None):
     ending = Ending()
     try:
         options, launch = begun(sys.argv if args is None else args)
-        shoot(Player(options.ball, options.namespace, options.timeout, options.wait), options, launch)
+        shoot(
+            Player(options.ball, options.namespace, options.timeout, options.wait), options, launch
+        )
     except (NoShot, NameValidationException) as error:
         return failed(error, 1)
     except KeyboardInterrupt:
@@ -149,7 +176,9 @@ def begun(args):
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         return typed
     except RuntimeError as error:
-        raise SystemExit(failed(unsafe() or f'arguments for ROS: {error}', 1 if unsafe() else 2)) from None
+        raise SystemExit(
+            failed(unsafe() or f'arguments for ROS: {error}', 1 if unsafe() else 2)
+        ) from None
 
 
 def failed(reason, code):

@@ -1,10 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The command line of `shoot`: its options, its help, and which texts are refused."""
+
 import argparse
 from math import isfinite
 import re
 
-from ..shot_input.clubs import PUTTER, TOUR_AVERAGES, club
+from ..shot_input.clubs import club, PUTTER, TOUR_AVERAGES
 from ..shot_input.units import UNITS
 
 EXAMPLES = """
@@ -28,49 +42,103 @@ exit code: 0 when the shot was played, 1 when it was not (one line says why), 2 
 def parser():
     """Parser of the command line, without ROS's arguments."""
     made = argparse.ArgumentParser(
-        prog='shoot', usage='shoot [CLUB] [OPTION ...] [--ros-args ...]',
+        prog='shoot',
+        usage='shoot [CLUB] [OPTION ...] [--ros-args ...]',
         description='Hit one shot, typed as a launch monitor shows it, and print how it ends.',
-        epilog=_club_table() + EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
-    made.add_argument('club', nargs='?', metavar='CLUB', type=_club, help=(
-        'driver, 3w, hybrid, 7i, pw, putter, ...'))
+        epilog=_club_table() + EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    made.add_argument(
+        'club',
+        nargs='?',
+        metavar='CLUB',
+        type=_club,
+        help=('driver, 3w, hybrid, 7i, pw, putter, ...'),
+    )
     _add_launch(made.add_argument_group("the launch; what is given replaces the club's"))
     _add_sim(made.add_argument_group('the sim'))
     return made
 
 
 def _add_launch(group):
-    group.add_argument('--units', choices=UNITS, default='golf', help=(
-        'golf: mph, deg, rpm, yd (default); si: m/s, deg, rad/s, m'))
+    group.add_argument(
+        '--units',
+        choices=UNITS,
+        default='golf',
+        help=('golf: mph, deg, rpm, yd (default); si: m/s, deg, rad/s, m'),
+    )
     group.add_argument('--speed', type=_not_negative, metavar='V', help='ball speed')
     group.add_argument('--launch', type=_number, metavar='DEG', help='angle above the horizontal')
-    group.add_argument('--azimuth', type=_number, metavar='DEG', default=0.0, help=(
-        'direction, positive to the right of the target'))
+    group.add_argument(
+        '--azimuth',
+        type=_number,
+        metavar='DEG',
+        default=0.0,
+        help=('direction, positive to the right of the target'),
+    )
     group.add_argument('--backspin', type=_number, metavar='W', help='spin that lifts the ball')
-    group.add_argument('--sidespin', type=_number, metavar='W', help=(
-        'spin that curves it, positive to the right'))
-    group.add_argument('--spin', type=_not_negative, metavar='W', help=(
-        'total spin, with --axis instead of --backspin and --sidespin'))
-    group.add_argument('--axis', type=_number, metavar='DEG', help=(
-        'tilt of the spin axis, positive to the right'))
-    group.add_argument('--power', type=_not_negative, metavar='P', help=(
-        "part of the club's ball speed and spin, such as 0.8"))
-    group.add_argument('--aim', choices=['hole'], help='the target is the hole, from where the ball lies')
+    group.add_argument(
+        '--sidespin',
+        type=_number,
+        metavar='W',
+        help=('spin that curves it, positive to the right'),
+    )
+    group.add_argument(
+        '--spin',
+        type=_not_negative,
+        metavar='W',
+        help=('total spin, with --axis instead of --backspin and --sidespin'),
+    )
+    group.add_argument(
+        '--axis',
+        type=_number,
+        metavar='DEG',
+        help=('tilt of the spin axis, positive to the right'),
+    )
+    group.add_argument(
+        '--power',
+        type=_not_negative,
+        metavar='P',
+        help=("part of the club's ball speed and spin, such as 0.8"),
+    )
+    group.add_argument(
+        '--aim', choices=['hole'], help='the target is the hole, from where the ball lies'
+    )
 
 
 def _add_sim(group):
-    group.add_argument('--ball', type=_ball, metavar='NAME', help='ball to strike; default: the one in play')
+    group.add_argument(
+        '--ball', type=_ball, metavar='NAME', help='ball to strike; default: the one in play'
+    )
     group.add_argument('--namespace', metavar='NS', help='namespace of the sim')
-    group.add_argument('--timeout', type=_not_negative, metavar='S', default=5.0, help=(
-        'for how many seconds to look for a sim (default: 5)'))
-    group.add_argument('--wait', type=_not_negative, metavar='S', default=60.0, help=(
-        'for how many seconds to wait for a struck sim that cannot be reached any more (default: 60)'))
-    group.add_argument('--print', action='store_true', help=(
-        'print the ros2 topic pub line and do not shoot; needs no sim, except with --aim'))
+    group.add_argument(
+        '--timeout',
+        type=_not_negative,
+        metavar='S',
+        default=5.0,
+        help=('for how many seconds to look for a sim (default: 5)'),
+    )
+    group.add_argument(
+        '--wait',
+        type=_not_negative,
+        metavar='S',
+        default=60.0,
+        help=(
+            'for how many seconds to wait for a struck sim that cannot be reached any more (default: 60)'
+        ),
+    )
+    group.add_argument(
+        '--print',
+        action='store_true',
+        help=('print the ros2 topic pub line and do not shoot; needs no sim, except with --aim'),
+    )
 
 
 def _club_table():
-    rows = [f'  {name:<8}{mph:>6} mph {degrees:>6} deg {rpm:>6} rpm {yards:>6} yd'
-            for name, mph, degrees, rpm, yards in TOUR_AVERAGES]
+    rows = [
+        f'  {name:<8}{mph:>6} mph {degrees:>6} deg {rpm:>6} rpm {yards:>6} yd'
+        for name, mph, degrees, rpm, yards in TOUR_AVERAGES
+    ]
     title = "clubs: ball speed, launch angle, backspin and carry of the PGA Tour's averages"
     return '\n'.join([title, *rows, f'  {PUTTER:<8}   give --speed; launch and spin are 0', ''])
 
@@ -101,5 +169,7 @@ def _not_negative(text):
 
 def _ball(text):
     if not re.fullmatch('[a-z][a-z0-9_]*', text):
-        raise argparse.ArgumentTypeError(f'{text!r} is no name of a ball: a-z first, then a-z, 0-9 and _')
+        raise argparse.ArgumentTypeError(
+            f'{text!r} is no name of a ball: a-z first, then a-z, 0-9 and _'
+        )
     return text

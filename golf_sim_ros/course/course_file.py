@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Courses from YAML files: read, checked, and made into the records that the physics plays on."""
+
 from hashlib import sha256
 import os
 from pathlib import Path
@@ -7,6 +21,32 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .heightmap_file import heightmap_of
+from .input_file import beside, is_there
+from .input_file import content as bytes_of
+from .material_file import materials, shipped
+from .mesh_file import outward, read_mesh
+from .package_files import share
+from .plausibility import files_reach, looker, misplaced
+from .schema import (
+    CourseError,
+    direction,
+    fields,
+    flag,
+    list_of,
+    mapping,
+    number,
+    one_of,
+    polygon,
+    record,
+    refused,
+    shown,
+    tagged,
+    text,
+    unknown,
+    vector,
+)
+from .yaml_file import read_yaml, uncollected
 from .. import physics
 from ..physics.effects.wind import LogProfile, PowerProfile, UniformProfile
 from ..physics.geometry.mesh import Mesh
@@ -17,15 +57,6 @@ from ..physics.geometry.water_surface import Water
 from ..physics.geometry.zone import Zone
 from ..physics.properties.air import Air, density, standard_atmosphere
 from ..physics.scene.course_record import Ball, Course
-from .heightmap_file import heightmap_of
-from .input_file import beside, content as bytes_of, is_there
-from .material_file import materials, shipped
-from .mesh_file import outward, read_mesh
-from .package_files import share
-from .plausibility import files_reach, looker, misplaced
-from .schema import (CourseError, direction, fields, flag, list_of, mapping, number, one_of, polygon, record,
-                     refused, shown, tagged, text, unknown, vector)
-from .yaml_file import read_yaml, uncollected
 
 __all__ = ['CourseError', 'load_course', 'load_round', 'shipped_courses']
 
@@ -40,18 +71,38 @@ def format_number(value, key):
     return value
 
 
-ROUND = fields({'format': format_number, 'name': text,
-                'round': list_of(text, 'a list of one or more course files', 1, 100)}, ('format', 'round'))
+ROUND = fields(
+    {
+        'format': format_number,
+        'name': text,
+        'round': list_of(text, 'a list of one or more course files', 1, 100),
+    },
+    ('format', 'round'),
+)
 PROFILES = {
     'log': record(LogProfile, {'roughness': number(1e-6, 10)}),
     'power': record(PowerProfile, {'exponent': number(0, 2)}),
     'uniform': record(UniformProfile, {}),
 }
-WEATHER = record(Air, {'temperature': number(150, 400), 'pressure': number(0, 1e7),
-                       'relative_humidity': number(0, 1)})
+WEATHER = record(
+    Air,
+    {
+        'temperature': number(150, 400),
+        'pressure': number(0, 1e7),
+        'relative_humidity': number(0, 1),
+    },
+)
 ALTITUDE = fields({'altitude': number(-1000, 11000)})
-BALL = record(Ball, {'mass': number(1e-6, 1000), 'radius': number(1e-3, 1), 'inertia': number(0.01, 1),
-                     'restitution': number(0, 1), 'friction': number(0)})
+BALL = record(
+    Ball,
+    {
+        'mass': number(1e-6, 1000),
+        'radius': number(1e-3, 1),
+        'inertia': number(0.01, 1),
+        'restitution': number(0, 1),
+        'friction': number(0),
+    },
+)
 
 CUTS = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
 WATER = record(Water, {'polygon': polygon, 'level': number(), 'cut': CUTS}, ('polygon', 'level'))
@@ -77,7 +128,9 @@ def load_course(name_or_path):
     path, raw, content = opened_course(name_or_path)
     names = round_of(path, content)
     if names is not None:
-        raise CourseError(f'{path}: is a round of {len(names)} courses: give one of them: {", ".join(names)}')
+        raise CourseError(
+            f'{path}: is a round of {len(names)} courses: give one of them: {", ".join(names)}'
+        )
     base, sources = shipped()
     opened = {}
     try:
@@ -85,9 +138,12 @@ def load_course(name_or_path):
             course = course_of(content, base, path.parent, sources, opened)
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
-    return course._replace(name=course.name or path.stem, path=str(path),
-                           digest=digest(raw, sources, opened),
-                           notes=(*(note for file in opened.values() for note in file.notes), *course.notes))
+    return course._replace(
+        name=course.name or path.stem,
+        path=str(path),
+        digest=digest(raw, sources, opened),
+        notes=(*(note for file in opened.values() for note in file.notes), *course.notes),
+    )
 
 
 def load_round(name_or_path):
@@ -96,8 +152,8 @@ def load_round(name_or_path):
     Parameters
     ----------
     name_or_path : str or path
-        Path of a file that names several, ``round: [first.yaml, second.yaml]``, from its own folder on or
-        as shipped ones; or what `load_course` takes, which is a round of one.
+        Path of a file that names several, ``round: [first.yaml, second.yaml]``, from its own
+        folder on or as shipped ones; or what `load_course` takes, which is a round of one.
 
     Returns
     -------
@@ -111,10 +167,12 @@ def load_round(name_or_path):
     path, _, content = opened_course(name_or_path)
     names = round_of(path, content)
     if names is None:
-        return load_course(name_or_path),
+        return (load_course(name_or_path),)
     try:
         known = shipped_courses()
-        return tuple(load_course(name if name in known else beside(path.parent, name)) for name in names)
+        return tuple(
+            load_course(name if name in known else beside(path.parent, name)) for name in names
+        )
     except CourseError as error:
         raise CourseError(f'{path}: round: {error}') from None
 
@@ -152,7 +210,9 @@ def course_file(name_or_path):
     except CourseError as error:
         raise CourseError(f'{name}: {error}') from None
     if path.suffix not in ('.yaml', '.yml') and not is_there(path):
-        raise CourseError(f'{unknown("course", name, known)}; or give the path of a course file (.yaml)')
+        raise CourseError(
+            f'{unknown("course", name, known)}; or give the path of a course file (.yaml)'
+        )
     return path
 
 
@@ -170,24 +230,41 @@ def digest(raw, sources, opened):
 def course_of(content, base, folder, sources, opened):
     """`Course` of a file's `content`; `base` holds the entries of the shipped materials.
 
-    What the file calls for is looked for from `folder` on; bytes of height maps are put into `sources`,
-    meshes into `opened`, by the names that the file gives them.
+    What the file calls for is looked for from `folder` on; bytes of height maps are put into
+    `sources`, meshes into `opened`, by the names that the file gives them.
     """
     known = materials(mapping(content, '').get('materials', {}), base)
     notes = []
-    shape = shape_of(known, heightmap_of(known, folder, sources, notes), mesh_of(known, folder, opened))
-    read = fields({
-        'format': format_number, 'name': text, 'tee': vector(2), 'hole': vector(2), 'flagstick': flag,
-        'bounds': polygon, 'air': air, 'wind_profile': tagged('law', PROFILES), 'effects': effects,
-        'ball': BALL, 'materials': mapping, 'wind_field': to_come,
-        'water': list_of(WATER, 'a list of ponds, as in [{polygon: [[x, y], ...], level: z}]'),
-        'zones': list_of(zone_of(known), 'a list of zones'),
-        'obstacles': list_of(obstacle_of(known), 'a list of obstacles'),
-        'ground': list_of(shape, 'a list of one or more shapes', 1),
-    }, needed=('format', 'ground'))
+    shape = shape_of(
+        known, heightmap_of(known, folder, sources, notes), mesh_of(known, folder, opened)
+    )
+    read = fields(
+        {
+            'format': format_number,
+            'name': text,
+            'tee': vector(2),
+            'hole': vector(2),
+            'flagstick': flag,
+            'bounds': polygon,
+            'air': air,
+            'wind_profile': tagged('law', PROFILES),
+            'effects': effects,
+            'ball': BALL,
+            'materials': mapping,
+            'wind_field': to_come,
+            'water': list_of(WATER, 'a list of ponds, as in [{polygon: [[x, y], ...], level: z}]'),
+            'zones': list_of(zone_of(known), 'a list of zones'),
+            'obstacles': list_of(obstacle_of(known), 'a list of obstacles'),
+            'ground': list_of(shape, 'a list of one or more shapes', 1),
+        },
+        needed=('format', 'ground'),
+    )
     found = read(content, '')
-    course = Course(cup=known['cup'], stick=known['flagstick'],
-                    **{name: value for name, value in found.items() if name in Course._fields})
+    course = Course(
+        cup=known['cup'],
+        stick=known['flagstick'],
+        **{name: value for name, value in found.items() if name in Course._fields},
+    )
     files = [entry.get('file', entry.get('heights')) for entry in content['ground']]
     look = looker(course)
     for key in ('tee', 'hole'):
@@ -199,10 +276,15 @@ def course_of(content, base, folder, sources, opened):
 
 
 def on_ground(course, key, look, files):
-    """Refuse a course with a tee or hole that has no ground under it; `files`: those of its shapes."""
+    """Refuse a course with a tee or hole that has no ground under it.
+
+    `files`: those of its shapes.
+    """
     place = getattr(course, key)
     if place is not None and look(*place) is None:
-        raise refused(key, list(place), f'above some ground, and there is none{files_reach(course, files)}')
+        raise refused(
+            key, list(place), f'above some ground, and there is none{files_reach(course, files)}'
+        )
 
 
 def free_at_tee(course):
@@ -232,8 +314,16 @@ class MeshFile(NamedTuple):
 
 def mesh_of(known, folder, opened):
     """Checker of a mesh; see `course_of`."""
-    read = fields({'file': text, 'material': one_of(known), 'one_sided': flag, 'up': one_of(UP),
-                   'scale': number(1e-6, 1e6)}, ('file', 'material'))
+    read = fields(
+        {
+            'file': text,
+            'material': one_of(known),
+            'one_sided': flag,
+            'up': one_of(UP),
+            'scale': number(1e-6, 1e6),
+        },
+        ('file', 'material'),
+    )
 
     def check(value, key):
         entry = read(value, key)
@@ -251,11 +341,15 @@ def mesh_of(known, folder, opened):
             faces, notes = outward(file.vertices, faces, Path(name).name)
             opened[use] = file._replace(notes=tuple(dict.fromkeys((*file.notes, *notes))))
         return Mesh(file.vertices, faces, entry['material'], one_sided)
+
     return check
 
 
 def opened_mesh(path, up, scale):
-    """`MeshFile` of the file at `path`; the digest of a .gltf file covers the mesh too, which others hold."""
+    """`MeshFile` of the file at `path`.
+
+    The digest of a .gltf file covers the mesh too, which others hold.
+    """
     vertices, faces, notes = read_mesh(path, up, scale)
     digest = sha256(bytes_of(path))
     if path.suffix.lower() == '.gltf':
@@ -264,14 +358,26 @@ def opened_mesh(path, up, scale):
 
 
 def shape_of(known, heightmap, mesh):
-    """Checker of an entry of ``ground``; `known`: materials by name; `heightmap`, `mesh` read files."""
+    """Checker of an entry of ``ground``.
+
+    `known`: materials by name; `heightmap`, `mesh` read files.
+    """
     common = {'normal': direction, 'material': one_of(known), 'cut': CUTS}
     size = number(1e-3)
     shapes = {
         'plane': record(Plane, {**common, 'point': vector(3)}, ('material',)),
-        'patch': record(Patch, {**common, 'center': vector(3), 'heading': number(), 'length': size,
-                                'width': size, 'one_sided': flag},
-                        ('center', 'length', 'width', 'material')),
+        'patch': record(
+            Patch,
+            {
+                **common,
+                'center': vector(3),
+                'heading': number(),
+                'length': size,
+                'width': size,
+                'one_sided': flag,
+            },
+            ('center', 'length', 'width', 'material'),
+        ),
         'heightmap': heightmap,
         'mesh': mesh,
     }
@@ -279,8 +385,11 @@ def shape_of(known, heightmap, mesh):
     def check(value, key):
         shape = tagged('shape', shapes)(value, key)
         if getattr(shape, 'cut', ()) and abs(shape.normal[2]) < 1e-3:
-            raise refused(f'{key}.cut', value['cut'], 'left out: seen from above, this shape is a line')
+            raise refused(
+                f'{key}.cut', value['cut'], 'left out: seen from above, this shape is a line'
+            )
         return shape
+
     return check
 
 
@@ -288,16 +397,23 @@ def obstacle_of(known):
     """Checker of an entry of ``obstacles``; `known` holds the materials by name."""
     common = {'material': one_of(known), 'radius': number(1e-3)}
     shapes = {
-        'cylinder': record(Cylinder, {**common, 'base': vector(3), 'height': number(1e-3)},
-                           ('base', 'radius', 'height', 'material')),
-        'sphere': record(Sphere, {**common, 'center': vector(3)}, ('center', 'radius', 'material')),
+        'cylinder': record(
+            Cylinder,
+            {**common, 'base': vector(3), 'height': number(1e-3)},
+            ('base', 'radius', 'height', 'material'),
+        ),
+        'sphere': record(
+            Sphere, {**common, 'center': vector(3)}, ('center', 'radius', 'material')
+        ),
     }
     return tagged('shape', shapes)
 
 
 def zone_of(known):
     """Checker of an entry of ``zones``."""
-    return record(Zone, {'material': one_of(known), 'polygon': polygon, 'cut': CUTS}, ('material', 'polygon'))
+    return record(
+        Zone, {'material': one_of(known), 'polygon': polygon, 'cut': CUTS}, ('material', 'polygon')
+    )
 
 
 def air(value, key):
@@ -306,7 +422,9 @@ def air(value, key):
         return standard_atmosphere(**ALTITUDE(value, key))
     weather = WEATHER(value, key)
     if density(weather) < 0:
-        raise refused(f'{key}.pressure', weather.pressure, 'more than that of the vapour in the air')
+        raise refused(
+            f'{key}.pressure', weather.pressure, 'more than that of the vapour in the air'
+        )
     return weather
 
 

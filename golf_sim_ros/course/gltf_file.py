@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """glTF 2.0 (Khronos, ISO/IEC 12113): refuses what trimesh would read wrongly without saying so."""
+
 from io import BytesIO
 import json
 from urllib.parse import unquote
@@ -8,11 +22,12 @@ from .input_file import beside, content
 from .schema import CourseError, shown
 
 MAGIC, JSON = b'glTF', b'JSON'
-# What changes where triangles lie. Of the compressed ones trimesh reads some, if it finds a decoder.
+# What changes where triangles lie. Of the compressed ones trimesh reads some, if it finds a
+# decoder.
 UNREAD = {
     'KHR_draco_mesh_compression': 'is compressed with Draco: export it without compression',
     'EXT_meshopt_compression': 'is compressed with meshopt: export it without compression',
-    'EXT_mesh_gpu_instancing': 'has instances (EXT_mesh_gpu_instancing): export them as meshes'
+    'EXT_mesh_gpu_instancing': 'has instances (EXT_mesh_gpu_instancing): export them as meshes',
 }
 TRIANGLES, STRIP = 4, 5
 SIZES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
@@ -21,6 +36,7 @@ WIDTHS = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4, 'MAT2': 4, 'MAT3': 9, 'M
 
 class Neighbours:
     """Resolver for trimesh of the files that a .gltf file names, from its own folder."""
+
     def __init__(self, folder):
         self.folder = folder
 
@@ -49,7 +65,9 @@ def checked_gltf(raw, path):
     except CourseError:
         raise
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, RecursionError) as error:
-        raise CourseError(f'is no glTF file that can be read: {" ".join(str(error).split())}') from None
+        raise CourseError(
+            f'is no glTF file that can be read: {" ".join(str(error).split())}'
+        ) from None
 
 
 def json_of(raw):
@@ -74,7 +92,8 @@ def check_accessors(tree):
         if not 0 <= count * size <= room:
             raise CourseError(
                 f'is no glTF file that can be read: accessor {number} tells of {shown(count)} rows, '
-                'and has not as many bytes')
+                'and has not as many bytes'
+            )
 
 
 def check_primitive(primitive, accessors):
@@ -83,14 +102,18 @@ def check_primitive(primitive, accessors):
     if mode < TRIANGLES:  # points and lines are no ground
         return
     if mode not in (TRIANGLES, STRIP):
-        raise CourseError(f'has triangles in mode {mode}; known: {TRIANGLES}, a list, and {STRIP}, strips')
+        raise CourseError(
+            f'has triangles in mode {mode}; known: {TRIANGLES}, a list, and {STRIP}, strips'
+        )
     corners = accessors[primitive['attributes']['POSITION']]
     numbers = accessors[primitive['indices']] if 'indices' in primitive else corners
     for accessor in (corners, numbers):
         if 'sparse' in accessor or 'bufferView' not in accessor:
             raise CourseError('has a sparse accessor: export it without')
     if corners.get('normalized'):
-        raise CourseError('has positions that are normalized integers: export it without quantization')
+        raise CourseError(
+            'has positions that are normalized integers: export it without quantization'
+        )
 
 
 def check_nodes(nodes):
@@ -99,7 +122,9 @@ def check_nodes(nodes):
     for node in nodes:
         for child in node.get('children', ()):
             if child in seen:
-                raise CourseError(f'is no glTF file that can be read: node {shown(child)} has two parents')
+                raise CourseError(
+                    f'is no glTF file that can be read: node {shown(child)} has two parents'
+                )
             seen.add(child)
     left = [number for number in range(len(nodes)) if number not in seen]
     reached = set()

@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Height maps from files, checked: arrays of NumPy, GeoTIFF, and the ASCII grids of ESRI."""
+
 import numpy as np
 
-from ..physics.geometry.heightmap import Heightmap
-from .height_grid import UNITS, npy
+from .height_grid import npy, UNITS
 from .input_file import beside, content
 from .missing_heights import CUSTOMARY, filled
-from .schema import CourseError, FAR, below, fields, flag, number, one_of, text, vector
+from .schema import below, CourseError, FAR, fields, flag, number, one_of, text, vector
 from .terrain_file import esri, geotiff
+from ..physics.geometry.heightmap import Heightmap
 
 READERS = {'.npy': npy, '.asc': esri, '.tif': geotiff, '.tiff': geotiff}
 JUMP = 100.0  # m between neighbours: no ground that golf is played on; a value for no data is
@@ -17,14 +31,25 @@ SIZE = number(1e-3)
 def heightmap_of(known, folder, sources, notes):
     """Checker of a height map, an entry of ``ground``, that returns a `Heightmap`.
 
-    `known` holds the materials by name, `folder` is that of the course; the file's bytes are put into
-    `sources` under its name, and what looks wrong is added to `notes`. It raises `CourseError`, one line with
-    file and reason.
+    `known` holds the materials by name, `folder` is that of the course; the file's bytes are put
+    into `sources` under its name, and what looks wrong is added to `notes`. It raises
+    `CourseError`, one line with file and reason.
     """
     units = one_of({name: name for name in UNITS})
-    read = fields({'heights': text, 'material': one_of(known), 'origin': vector(2), 'spacing': SIZE,
-                   'subtract': subtract, 'unit': units, 'height_unit': units, 'fill': flag,
-                   'no_data': number(-4e38, 4e38)}, ('heights', 'material'))
+    read = fields(
+        {
+            'heights': text,
+            'material': one_of(known),
+            'origin': vector(2),
+            'spacing': SIZE,
+            'subtract': subtract,
+            'unit': units,
+            'height_unit': units,
+            'fill': flag,
+            'no_data': number(-4e38, 4e38),
+        },
+        ('heights', 'material'),
+    )
 
     def check(value, key):
         entry, place = read(value, key), below(key, 'heights')
@@ -38,6 +63,7 @@ def heightmap_of(known, folder, sources, notes):
             raise CourseError(f'{place} {name}: is too large for the memory there is') from None
         except CourseError as error:
             raise CourseError(f'{place} {name}: {error}') from None
+
     return check
 
 
@@ -50,13 +76,18 @@ def subtract(value, key):
 
 
 def grid_in(raw, path, entry):
-    """`Grid` in a file's bytes; CourseError where it holds anything else, or `entry` does not fit it."""
+    """`Grid` in a file's bytes.
+
+    CourseError where it holds anything else, or `entry` does not fit it.
+    """
     suffix = path.suffix.lower()
     if suffix not in READERS:
         raise CourseError(f'is no height map; known: {", ".join(sorted(READERS))}')
     grid = READERS[suffix](raw, entry.get('unit'))
     if grid.heights.ndim != 2 or min(grid.heights.shape) < 2:
-        raise CourseError(f'must hold rows of heights, 2 x 2 or more; its shape is {grid.heights.shape}')
+        raise CourseError(
+            f'must hold rows of heights, 2 x 2 or more; its shape is {grid.heights.shape}'
+        )
     if grid.spacing is None and 'spacing' not in entry:
         raise CourseError("says nothing of its cell size, so key 'spacing' is needed [m]")
     if grid.spacing is not None and 'spacing' in entry:
@@ -72,15 +103,19 @@ def placed(grid, entry, name, notes):
     """`Heightmap` of a `Grid`, in metres of the course; adds to `notes`."""
     said = grid.unit or entry.get('unit', 'metres')
     unit, height_unit = UNITS[said], UNITS[entry.get('height_unit') or grid.height_unit or said]
-    spacing = entry['spacing'] if grid.spacing is None else SIZE(grid.spacing * unit, 'its cell size')
+    spacing = (
+        entry['spacing'] if grid.spacing is None else SIZE(grid.spacing * unit, 'its cell size')
+    )
     less_x, less_y, less_z = entry.get('subtract', (0.0, 0.0, 0.0))
     origin = entry.get('origin', (0.0, 0.0))
     if grid.corner is not None and 'origin' not in entry:
         x, y = grid.corner
         origin = (x - less_x) * unit, (y - less_y) * unit
         if not max(map(abs, origin)) <= FAR:
-            raise CourseError(f'lies at {x:.10g}, {y:.10g}: say where the course has its origin there, as '
-                              f'with `subtract: [{x:.0f}, {y:.0f}]`')
+            raise CourseError(
+                f'lies at {x:.10g}, {y:.10g}: say where the course has its origin there, as '
+                f'with `subtract: [{x:.0f}, {y:.0f}]`'
+            )
     heights, where = (grid.heights - less_z) * height_unit, Places(origin, spacing)
     absent = absent_of(grid, entry)
     if absent.any():
@@ -109,14 +144,19 @@ def absent_of(grid, entry):
 
 
 def filling(grid, absent, where, fill):
-    """A note of which heights of a grid are `absent` and filled; CourseError where they may not be."""
+    """A note of which heights of a grid are `absent` and filled.
+
+    CourseError where they may not be.
+    """
     if absent.all():
         raise CourseError('holds no heights: all stand for no data')
     place = tuple(np.argwhere(absent)[0])
     of_all = f'{absent.sum()} of {absent.size}'
     if not fill:
-        raise CourseError(f'height {list(map(int, place))} is {grid.heights[place]:g}, {where(*place)}: '
-                          f'{of_all} stand for no data; `fill: true` fills them from those around')
+        raise CourseError(
+            f'height {list(map(int, place))} is {grid.heights[place]:g}, {where(*place)}: '
+            f'{of_all} stand for no data; `fill: true` fills them from those around'
+        )
     return f'{of_all} heights stood for no data, the first {where(*place)}, and were filled from those around'
 
 
@@ -124,8 +164,10 @@ def check_reach(heights, where):
     """Check that no height is out of reach or not a number; CourseError where one is."""
     if not (np.abs(heights) <= FAR).all():
         place = tuple(np.argwhere(~(np.abs(heights) <= FAR))[0])
-        raise CourseError(f'height {list(map(int, place))} is {heights[place]}, {where(*place)}, and must be '
-                          f'a number from {-FAR:g} to {FAR:g}')
+        raise CourseError(
+            f'height {list(map(int, place))} is {heights[place]}, {where(*place)}, and must be '
+            f'a number from {-FAR:g} to {FAR:g}'
+        )
 
 
 def jumps(heights, where):
@@ -134,6 +176,8 @@ def jumps(heights, where):
         steps = np.abs(np.diff(heights, axis=axis))
         place = np.unravel_index(steps.argmax(), steps.shape)
         if steps[place] > JUMP:
-            return [f'heights jump by {steps[place]:.4g} m beside the one {where(*place)}, and the surface '
-                    'swings there; if a value stands for no data, say `no_data: VALUE`']
+            return [
+                f'heights jump by {steps[place]:.4g} m beside the one {where(*place)}, and the surface '
+                'swings there; if a value stands for no data, say `no_data: VALUE`'
+            ]
     return []

@@ -1,15 +1,32 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Bytes of the files that a course consists of: regular files only, no pointers of Git LFS."""
+
 import os
 from pathlib import Path
 import stat
 
 from .schema import CourseError
 
-MOST = 2 ** 29  # bytes: what is larger is no course
+MOST = 2**29  # bytes: what is larger is no course
 LFS = b'version https://git-lfs.github.com/spec/'
 KINDS = {
-    stat.S_IFIFO: 'a FIFO', stat.S_IFCHR: 'a device', stat.S_IFBLK: 'a device', stat.S_IFSOCK: 'a socket'
+    stat.S_IFIFO: 'a FIFO',
+    stat.S_IFCHR: 'a device',
+    stat.S_IFBLK: 'a device',
+    stat.S_IFSOCK: 'a socket',
 }
 
 

@@ -1,16 +1,49 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Materials: the shipped ones, one YAML file each, and those that a course adds or changes."""
+
+from .package_files import share
+from .schema import (
+    below,
+    CourseError,
+    fields,
+    mapping,
+    number,
+    record,
+    tagged,
+    text,
+    unknown,
+    vector,
+)
+from .yaml_file import read_yaml
 from ..physics.geometry.cup import CUP_MATERIAL
 from ..physics.geometry.solid import FLAGSTICK_MATERIAL
-from ..physics.properties.material import Material, PENNER, Restitution, rolling_resistance_of_stimp
-from .package_files import share
-from .schema import CourseError, below, fields, mapping, number, record, tagged, text, unknown, vector
-from .yaml_file import read_yaml
+from ..physics.properties.material import (
+    Material,
+    PENNER,
+    Restitution,
+    rolling_resistance_of_stimp,
+)
 
 LAWS = {
     'penner': lambda value, key: fields({})(value, key) or PENNER,
-    'quadratic': record(Restitution, {'e0': number(0, 1), 'e1': number(-10, 10), 'e2': number(-10, 10),
-                                      'floor': number(0, 1)}, needed=('e0',)),
+    'quadratic': record(
+        Restitution,
+        {'e0': number(0, 1), 'e1': number(-10, 10), 'e2': number(-10, 10), 'floor': number(0, 1)},
+        needed=('e0',),
+    ),
 }
 
 
@@ -40,15 +73,19 @@ def entry(value, key, checkers=FIELDS):
     content = fields(checkers)(value, key)
     if 'stimp' in content:
         if 'rolling_resistance' in content:
-            raise CourseError(f'{key or "material"} has both stimp and rolling_resistance; one is allowed')
+            raise CourseError(
+                f'{key or "material"} has both stimp and rolling_resistance; one is allowed'
+            )
         content['rolling_resistance'] = rolling_resistance_of_stimp(content.pop('stimp'))
     return content
 
 
 def shipped():
     """Entries of the shipped materials by name, cup and flagstick too, and the bytes of their files."""
-    entries = {made.name: {name: value for name, value in made._asdict().items() if name != 'name'}
-               for made in (CUP_MATERIAL, FLAGSTICK_MATERIAL)}
+    entries = {
+        made.name: {name: value for name, value in made._asdict().items() if name != 'name'}
+        for made in (CUP_MATERIAL, FLAGSTICK_MATERIAL)
+    }
     sources = {}
     for path in sorted(share('config', 'materials').glob('*.yaml')):
         sources[path.stem], content = read_yaml(path)
@@ -69,14 +106,24 @@ def materials(value, base):
     base : dict of str to dict
         The shipped entries.
     """
-    own = {text(name, 'materials: name'): entry(content, f'materials.{name}', {**FIELDS, 'like': text})
-           for name, content in mapping(value, 'materials').items()}
+    own = {
+        text(name, 'materials: name'): entry(
+            content, f'materials.{name}', {**FIELDS, 'like': text}
+        )
+        for name, content in mapping(value, 'materials').items()
+    }
     filled = {}
     for name in own:
         for step in reversed(_way_to_known(name, own, base, filled)):
             content = dict(own[step])
             like = content.pop('like', step)
-            above = base.get(step, {}) if like == step else filled[like] if like in filled else base[like]
+            above = (
+                base.get(step, {})
+                if like == step
+                else filled[like]
+                if like in filled
+                else base[like]
+            )
             filled[step] = {**above, **content}
     return {name: Material(name=name, **entry) for name, entry in {**base, **filled}.items()}
 
@@ -95,8 +142,10 @@ def _way_to_known(name, own, base, filled):
         if like not in own and like not in base:
             raise unknown(key, like, {*own, *base} - {name})
         if like in way:
-            raise CourseError(f'{key} {like!r} leads back to itself: {" -> ".join((*way, like))}; '
-                              'a material may not be like itself')
+            raise CourseError(
+                f'{key} {like!r} leads back to itself: {" -> ".join((*way, like))}; '
+                'a material may not be like itself'
+            )
         if like in filled or like not in own:
             return list(way)
         name = like

@@ -1,18 +1,32 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Triangles from files: STL, OBJ and PLY read here, glTF by trimesh where it is installed."""
+
 from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
-from ..optional_packages import how_to_get
-from ..physics.geometry.mesh import NARROW, widths
-from .gltf_file import Neighbours, checked_gltf
+from .gltf_file import checked_gltf, Neighbours
 from .input_file import content
 from .obj_file import obj
 from .ply_file import ply
 from .schema import CourseError, FAR
 from .stl_file import stl
+from ..optional_packages import how_to_get
+from ..physics.geometry.mesh import NARROW, widths
 
 HINT = f'needs trimesh: {how_to_get("mesh", "trimesh")}'
 TALL = 3.0  # times as high as it is wide: a wall, or ground that lies on its side
@@ -53,8 +67,14 @@ def read_mesh(path, up=None, scale=1.0):
             vertices, faces, told = READERS[suffix](raw, path)
             vertices, told = upright(vertices, told, suffix, up)
             vertices, faces, put_right = cleaned(vertices * scale, faces)
-            return vertices, faces, [f'{path.name}: {note}'
-                                     for note in (*told, *put_right, *lying(vertices, faces, suffix, up))]
+            return (
+                vertices,
+                faces,
+                [
+                    f'{path.name}: {note}'
+                    for note in (*told, *put_right, *lying(vertices, faces, suffix, up))
+                ],
+            )
     except MemoryError:
         raise CourseError(f'{path}: is too large for the memory there is') from None
     except CourseError as error:
@@ -64,7 +84,10 @@ def read_mesh(path, up=None, scale=1.0):
 def upright(vertices, notes, suffix, up):
     """`vertices` with z up, and notes."""
     if up is None and suffix in Y_UP:
-        notes = [*notes, 'y is up in glTF, so (x, y, z) was read as (x, -z, y); `up: z` would leave it']
+        notes = [
+            *notes,
+            'y is up in glTF, so (x, y, z) was read as (x, -z, y); `up: z` would leave it',
+        ]
     if own_up(suffix, up) == 'z':
         return vertices, notes
     x, y, z = vertices.T
@@ -82,8 +105,10 @@ def lying(vertices, faces, suffix, up):
     if z <= TALL * min(x, y):
         return []
     other = 'z' if own_up(suffix, up) == 'y' else 'y'
-    return [f'is {z:.4g} m high, {x:.4g} m long and {y:.4g} m wide: if it lies on its side, '
-            f'say `up: {other}`']
+    return [
+        f'is {z:.4g} m high, {x:.4g} m long and {y:.4g} m wide: if it lies on its side, '
+        f'say `up: {other}`'
+    ]
 
 
 def by_trimesh(raw, path):
@@ -94,8 +119,14 @@ def by_trimesh(raw, path):
         raise CourseError(HINT) from None
     checked_gltf(raw, path)
     try:
-        found = trimesh.load(BytesIO(raw), path.suffix[1:].lower(), resolver=Neighbours(path.parent),
-                             process=False, force='mesh', skip_materials=True)
+        found = trimesh.load(
+            BytesIO(raw),
+            path.suffix[1:].lower(),
+            resolver=Neighbours(path.parent),
+            process=False,
+            force='mesh',
+            skip_materials=True,
+        )
         return np.asarray(found.vertices, float), np.asarray(found.faces, np.int64), []
     except CourseError:
         raise
@@ -105,8 +136,13 @@ def by_trimesh(raw, path):
 
 
 Y_UP = ('.glb', '.gltf')
-READERS = {'.stl': lambda raw, path: stl(raw), '.obj': lambda raw, path: obj(raw),
-           '.ply': lambda raw, path: ply(raw), '.glb': by_trimesh, '.gltf': by_trimesh}
+READERS = {
+    '.stl': lambda raw, path: stl(raw),
+    '.obj': lambda raw, path: obj(raw),
+    '.ply': lambda raw, path: ply(raw),
+    '.glb': by_trimesh,
+    '.gltf': by_trimesh,
+}
 
 
 def cleaned(vertices, faces):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Vertices and faces of OBJ files, in all the dialects that programs write."""
+
 import numpy as np
 
 from .input_file import decoded
@@ -10,7 +24,8 @@ from .schema import CourseError, shown
 def obj(raw):
     """Vertices, faces and notes of an OBJ file; lines that are neither are not looked at.
 
-    Lines may be indented, have tabs, comments behind them, and end in any way; vertices may have colours.
+    Lines may be indented, have tabs, comments behind them, and end in any way; vertices may have
+    colours.
     """
     vertices, polygons, lines = [], [], []
     for number, line in whole_lines(decoded(raw)):
@@ -26,13 +41,16 @@ def obj(raw):
         except ValueError:
             raise CourseError(
                 f'is no OBJ file that can be read: line {number} {shown(line.strip())}: a vertex '
-                'is three numbers or more, a face three whole ones or more') from None
+                'is three numbers or more, a face three whole ones or more'
+            ) from None
     vertices = np.array(vertices, float).reshape(-1, 3)
     check(polygons, lines, len(vertices))
     faces, crossed = triangles_of(polygons, vertices)
-    return vertices, faces, [
-        f'the face in line {lines[i]} crosses itself and was left out' for i in crossed[:3]
-    ]
+    return (
+        vertices,
+        faces,
+        [f'the face in line {lines[i]} crosses itself and was left out' for i in crossed[:3]],
+    )
 
 
 def whole_lines(text):
@@ -56,15 +74,22 @@ def vertex(words):
 
 
 def face(words, so_far):
-    """Numbers of vertices from 0 on; a corner is ``vertex/texture/normal``, and negative ones count back."""
+    """Numbers of vertices from 0 on.
+
+    A corner is ``vertex/texture/normal``, and negative ones count back.
+    """
     corners = [int(word.partition('/')[0]) for word in words[1:]]
     if len(corners) < 3:
         raise ValueError('two corners')
-    return [corner - 1 if corner > 0 else so_far + corner if corner < 0 else -1 for corner in corners]
+    return [
+        corner - 1 if corner > 0 else so_far + corner if corner < 0 else -1 for corner in corners
+    ]
 
 
 def check(polygons, lines, vertices):
     """Refuse a face with a vertex that there is not."""
     for polygon, line in zip(polygons, lines):
         if not 0 <= min(polygon) <= max(polygon) < vertices:
-            raise CourseError(f'line {line}: a face names a vertex that is none of the {vertices} there are')
+            raise CourseError(
+                f'line {line}: a face names a vertex that is none of the {vertices} there are'
+            )

@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Paths of the files that come with the package: courses, materials, parameters."""
 
 import os
@@ -39,7 +52,7 @@ def share(*parts):
 def _candidates():
     """Folders that may hold package.xml and config/, the ones nearest to this very file first."""
     here = Path(__file__).resolve()
-    yield here.parents[2]                             # source checkout
+    yield here.parents[2]  # source checkout
     sourced = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
     for prefix in [*_prefixes_above(here), sys.prefix, *sourced]:
         if prefix:

@@ -1,6 +1,21 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Vertices and faces of PLY files (Turk, The PLY polygon file format, 1994), text or binary."""
-from struct import calcsize, error as StructError, unpack_from
+
+from struct import calcsize, unpack_from
+from struct import error as StructError
 
 import numpy as np
 
@@ -8,20 +23,46 @@ from .polygon_faces import triangles_of
 from .schema import CourseError, shown
 
 TYPES = {
-    'char': 'i1', 'uchar': 'u1', 'short': 'i2', 'ushort': 'u2', 'int': 'i4', 'uint': 'u4', 'float': 'f4',
-    'double': 'f8', 'int8': 'i1', 'uint8': 'u1', 'int16': 'i2', 'uint16': 'u2', 'int32': 'i4', 'uint32': 'u4',
-    'float32': 'f4', 'float64': 'f8', 'int64': 'i8', 'uint64': 'u8'
+    'char': 'i1',
+    'uchar': 'u1',
+    'short': 'i2',
+    'ushort': 'u2',
+    'int': 'i4',
+    'uint': 'u4',
+    'float': 'f4',
+    'double': 'f8',
+    'int8': 'i1',
+    'uint8': 'u1',
+    'int16': 'i2',
+    'uint16': 'u2',
+    'int32': 'i4',
+    'uint32': 'u4',
+    'float32': 'f4',
+    'float64': 'f8',
+    'int64': 'i8',
+    'uint64': 'u8',
 }
 LETTERS = {
-    'i1': 'b', 'u1': 'B', 'i2': 'h', 'u2': 'H', 'i4': 'i', 'u4': 'I', 'f4': 'f', 'f8': 'd', 'i8': 'q',
-    'u8': 'Q'
+    'i1': 'b',
+    'u1': 'B',
+    'i2': 'h',
+    'u2': 'H',
+    'i4': 'i',
+    'u4': 'I',
+    'f4': 'f',
+    'f8': 'd',
+    'i8': 'q',
+    'u8': 'Q',
 }
 ORDERS = {'ascii': '', 'binary_little_endian': '<', 'binary_big_endian': '>'}
 CORNERS = ('vertex_indices', 'vertex_index')
 
 
 class Element:
-    """A kind of row, and how many there are; of each property its name, type, and that of a list's length."""
+    """A kind of row, and how many there are.
+
+    Of each property its name, type, and that of a list's length.
+    """
 
     def __init__(self, name, count):
         self.name, self.count, self.properties = name, count, []
@@ -37,15 +78,20 @@ def ply(raw):
         polygons = faces_in(rows)
     except KeyError as error:
         raise CourseError(
-            f'is no PLY file that can be read: {error.args[0]!r} is missing or unknown') from None
+            f'is no PLY file that can be read: {error.args[0]!r} is missing or unknown'
+        ) from None
     except (ValueError, IndexError, OverflowError, StructError) as error:
         if isinstance(error, CourseError):
             raise
-        raise CourseError('is no PLY file that can be read: it ends too soon, or a number is none') from None
+        raise CourseError(
+            'is no PLY file that can be read: it ends too soon, or a number is none'
+        ) from None
     for i, polygon in enumerate(polygons):
         if len(polygon) < 3 or not 0 <= min(polygon) <= max(polygon) < len(vertices):
-            raise CourseError(f'face {i}: {shown(list(map(int, polygon)))} must be 3 or more numbers of the '
-                              f'{len(vertices)} vertices there are')
+            raise CourseError(
+                f'face {i}: {shown(list(map(int, polygon)))} must be 3 or more numbers of the '
+                f'{len(vertices)} vertices there are'
+            )
     faces, crossed = triangles_of(polygons, vertices)
     return vertices, faces, [f'face {i} crosses itself and was left out' for i in crossed[:3]]
 
@@ -64,7 +110,8 @@ def header(raw):
             elements.append(Element(words[1], int(words[2])))
             if not 0 <= elements[-1].count <= len(raw):
                 raise CourseError(
-                    f'is no PLY file: it tells of {words[2]} {words[1]}, and has {len(raw)} bytes')
+                    f'is no PLY file: it tells of {words[2]} {words[1]}, and has {len(raw)} bytes'
+                )
         elif words[:2] == ['property', 'list']:
             elements[-1].properties.append((words[4], TYPES[words[3]], TYPES[words[2]]))
         elif words[:1] == ['property']:
@@ -72,7 +119,7 @@ def header(raw):
     if order is None:
         raise CourseError('is no PLY file: it tells of no format')
     body = end + len(b'end_header')
-    return order, elements, body + (2 if raw[body:body + 2] == b'\r\n' else 1)
+    return order, elements, body + (2 if raw[body : body + 2] == b'\r\n' else 1)
 
 
 def text_rows(words):
@@ -83,7 +130,9 @@ def text_rows(words):
         nonlocal place
         if all(length is None for _, _, length in element.properties):
             width = len(element.properties)
-            table = np.array(words[place:place + element.count * width], float).reshape(element.count, width)
+            table = np.array(words[place : place + element.count * width], float).reshape(
+                element.count, width
+            )
             place += element.count * width
             return {name: table[:, i] for i, (name, _, _) in enumerate(element.properties)}
         columns = {name: [] for name, _, _ in element.properties}
@@ -92,7 +141,7 @@ def text_rows(words):
                 size = 1
                 if length:
                     size, place = int(words[place]), place + 1
-                found = [float(word) for word in words[place:place + size]]
+                found = [float(word) for word in words[place : place + size]]
                 if len(found) != size:
                     raise ValueError
                 place += size
@@ -104,11 +153,12 @@ def text_rows(words):
 
 def binary_rows(raw, place, order):
     """Reader of an element's rows from bytes, from `place` on: a dict of columns, as `text_rows`."""
+
     def read(element):
         nonlocal place
-        columns, place = (table if all(length is None
-                                       for _, _, length in element.properties) else ragged)(element, raw,
-                                                                                            place, order)
+        columns, place = (
+            table if all(length is None for _, _, length in element.properties) else ragged
+        )(element, raw, place, order)
         return columns
 
     return read
@@ -161,4 +211,8 @@ def stripped(strip):
         if corner < 0:
             begin = i + 1
         elif i >= begin + 2:
-            yield strip[i - 2:i + 1] if (i - begin) % 2 == 0 else [strip[i - 1], strip[i - 2], corner]
+            yield (
+                strip[i - 2 : i + 1]
+                if (i - begin) % 2 == 0
+                else [strip[i - 1], strip[i - 2], corner]
+            )

@@ -1,8 +1,21 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Triangles of the faces of a mesh file, which may have many corners, be concave, and have holes.
 
-A convex face is a fan. Of any other one ears are cut, as Meisters (1975) and Eberly, Triangulation by ear
-clipping, say::
+A convex face is a fan. Of any other one ears are cut, as Meisters (1975) and Eberly, Triangulation
+by ear clipping, say::
 
         e-----d            d is an ear of a b c d e: it turns left, and no other
         |    /             corner lies in c d e or on the cut from c to e
@@ -10,9 +23,10 @@ clipping, say::
         |    \\
         a-----b
 
-A hole is joined to the outline by a slit, there and back, which is how such files have it; so corners may
-coincide. Nothing is added: each triangle's corners are corners of the face.
+A hole is joined to the outline by a slit, there and back, which is how such files have it; so
+corners may coincide. Nothing is added: each triangle's corners are corners of the face.
 """
+
 import numpy as np
 
 FLAT = 1e-14  # of a face's size squared: a triangle of less area is a line
@@ -52,14 +66,16 @@ def normals_of(corners):
 def convex(corners):
     """Whether a fan covers each of the faces with `corners` (m, n, 3), seen along its normal.
 
-    So it does with a face that is a line: of triangles without area. One that crosses itself has a normal of
-    nothing, too.
+    So it does with a face that is a line: of triangles without area. One that crosses itself has a
+    normal of nothing, too.
     """
     normals = normals_of(corners)[:, np.newaxis]
     ahead = np.roll(corners, -1, 1) - corners
     turns = np.einsum('ijk,ijk->ij', np.cross(np.roll(ahead, 1, 1), ahead), normals + 0 * ahead)
     spokes = corners[:, 1:] - corners[:, :1]
-    areas = np.einsum('ijk,ijk->ij', np.cross(spokes[:, :-1], spokes[:, 1:]), normals + 0 * spokes[:, 1:])
+    areas = np.einsum(
+        'ijk,ijk->ij', np.cross(spokes[:, :-1], spokes[:, 1:]), normals + 0 * spokes[:, 1:]
+    )
     least = -FLAT * np.einsum('ijk,ijk->i', normals, normals)[:, np.newaxis]
     fans = np.linalg.norm(np.cross(spokes[:, :-1], spokes[:, 1:]), axis=2).max(1)
     wide = np.linalg.norm(normals[:, 0], axis=1) > 1e-9 * fans
@@ -68,7 +84,10 @@ def convex(corners):
 
 
 def in_plane(corners):
-    """Corners (n, 2) of a face in its plane, counterclockwise, about 1 in size; None without a side up."""
+    """Corners (n, 2) of a face in its plane, counterclockwise, about 1 in size.
+
+    None without a side up.
+    """
     size = np.ptp(corners, 0).max()
     normal = normals_of(corners[np.newaxis])[0]
     length = np.linalg.norm(normal)
@@ -96,7 +115,9 @@ def ears_of(points):
             ears.append((a, b, c))
             ring.remove(b)
             i, since = i + 1, 0  # the next but one: cut all in a row they would be slivers
-        elif since > len(ring):  # all have been tried: a corner on a line, or a slit walked back, is left out
+        elif since > len(
+            ring
+        ):  # all have been tried: a corner on a line, or a slit walked back, is left out
             line = lines(points, ring)
             if line is None:
                 return None
@@ -124,15 +145,23 @@ def is_ear(points, ring, a, b, c):
     What lies on the other two sides, as each corner and what coincides with one, does not count.
     """
     a, b, c, others = points[a], points[b], points[c], points[ring]
-    inside = (turns(a, b, others) > FLAT) & (turns(b, c, others) > FLAT) & (turns(c, a, others) >= -FLAT)
+    inside = (
+        (turns(a, b, others) > FLAT)
+        & (turns(b, c, others) > FLAT)
+        & (turns(c, a, others) >= -FLAT)
+    )
     return not inside.any()
 
 
 def lines(points, ring):
-    """The first of the `ring` at which it goes straight on, or back; None where it nowhere does."""
+    """The first of the `ring` at which it goes straight on, or back.
+
+    None where it nowhere does.
+    """
     corners = points[ring]
     before, after = np.roll(corners, 1, 0), np.roll(corners, -1, 0)
-    areas = ((corners[:, 0] - before[:, 0]) * (after[:, 1] - before[:, 1]) - (corners[:, 1] - before[:, 1]) *
-             (after[:, 0] - before[:, 0]))
+    areas = (corners[:, 0] - before[:, 0]) * (after[:, 1] - before[:, 1]) - (
+        corners[:, 1] - before[:, 1]
+    ) * (after[:, 0] - before[:, 0])
     flat = np.flatnonzero(np.abs(areas) <= FLAT)
     return ring[flat[0]] if len(flat) else None

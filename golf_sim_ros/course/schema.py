@@ -1,10 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Checkers of values from a file: each returns its value or says what is wrong with it.
 
-A checker is called with a value and its key, ``ground[3].normal``, and raises `CourseError` with one
-line: key, value, what is allowed. Functions named after a thing (`number`, `polygon`) are checkers or,
-where they need to know more, make one.
+A checker is called with a value and its key, ``ground[3].normal``, and raises `CourseError` with
+one line: key, value, what is allowed. Functions named after a thing (`number`, `polygon`) are
+checkers or, where they need to know more, make one.
 """
+
 from difflib import get_close_matches
 from math import hypot, inf
 from reprlib import Repr
@@ -62,10 +76,16 @@ def refused(key, value, allowed):
 def unknown(what, value, choices):
     """Error for a `value` that is none of `choices`, with the one that was probably meant."""
     known = sorted(choices)
-    close = get_close_matches(value, known, 1) if isinstance(value, str) and len(value) < LONGEST else []
+    close = (
+        get_close_matches(value, known, 1)
+        if isinstance(value, str) and len(value) < LONGEST
+        else []
+    )
     hint = f'; did you mean {close[0]!r}?' if close else ''
     more = f' and {len(known) - MANY} more' if len(known) > MANY else ''
-    return CourseError(f'{what} {shown(value)} is unknown; known: {", ".join(known[:MANY])}{more}{hint}')
+    return CourseError(
+        f'{what} {shown(value)} is unknown; known: {", ".join(known[:MANY])}{more}{hint}'
+    )
 
 
 def number(least=-FAR, most=FAR):
@@ -78,6 +98,7 @@ def number(least=-FAR, most=FAR):
         if not least <= value <= most:  # refuses nan too
             raise refused(key, value, allowed)
         return float(value)
+
     return check
 
 
@@ -97,19 +118,23 @@ def text(value, key):
 
 def one_of(choices):
     """Checker of a name; returns what `choices`, a dict, holds under that name."""
+
     def check(value, key):
         if not isinstance(value, str) or value not in choices:
             raise unknown(key, value, choices)
         return choices[value]
+
     return check
 
 
 def list_of(check_one, allowed, least=0, most=inf):
     """Checker of a list of `least` to `most` entries; returns a tuple."""
+
     def check(value, key):
         if not isinstance(value, list) or not least <= len(value) <= most:
             raise refused(key, value, allowed)
         return tuple(check_one(v, f'{key}[{i}]') for i, v in enumerate(value))
+
     return check
 
 
@@ -129,7 +154,10 @@ def direction(value, key):
 
 
 def polygon(value, key):
-    """Checker of corners [x, y]; returns a tuple of them, without a last one equal to the first."""
+    """Checker of corners [x, y].
+
+    Returns a tuple of them, without a last one equal to the first.
+    """
     corners = list_of(vector(2), 'a list of 3 or more corners [x, y]', 3)(value, key)
     if len(corners) > 3 and corners[0] == corners[-1]:
         corners = corners[:-1]
@@ -138,8 +166,11 @@ def polygon(value, key):
             raise refused(key, value, f'a polygon, but corner {list(corner)} comes twice in a row')
     found = crossing(corners)
     if found:
-        raise refused(key, value, 'a polygon without crossings, but its sides '
-                      f'{found[0]} and {found[1]} meet')
+        raise refused(
+            key,
+            value,
+            f'a polygon without crossings, but its sides {found[0]} and {found[1]} meet',
+        )
     return corners
 
 
@@ -152,6 +183,7 @@ def mapping(value, key):
 
 def fields(checkers, needed=()):
     """Checker of a mapping with a checker for every name in it; returns a dict."""
+
     def check(value, key):
         place = f'{key}: ' if key else ''
         for name in mapping(value, key):
@@ -161,20 +193,28 @@ def fields(checkers, needed=()):
             if name not in value:
                 raise CourseError(f'{place}key {name!r} is missing; needed: {", ".join(needed)}')
         return {name: checkers[name](v, below(key, name)) for name, v in value.items()}
+
     return check
 
 
 def record(kind, checkers, needed=()):
-    """Checker of a mapping; returns a record of `kind`, a NamedTuple, with defaults for what is left out."""
+    """Checker of a mapping.
+
+    Returns a record of `kind`, a NamedTuple, with defaults for what is left out.
+    """
     read = fields(checkers, needed)
     return lambda value, key: kind(**read(value, key))
 
 
 def tagged(tag, kinds):
     """Checker of a mapping whose key `tag` names one of `kinds`, a dict of checkers for the rest of it."""
+
     def check(value, key):
         if tag not in mapping(value, key):
-            raise CourseError(f'{key}: key {tag!r} is missing; it is one of: {", ".join(sorted(kinds))}')
+            raise CourseError(
+                f'{key}: key {tag!r} is missing; it is one of: {", ".join(sorted(kinds))}'
+            )
         read = one_of(kinds)(value[tag], below(key, tag))
         return read({name: v for name, v in value.items() if name != tag}, key)
+
     return check

@@ -1,8 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Whether a polygon crosses or touches itself, in n log n: the sweep of Shamos and Hoey (1976).
 
-A line goes over the plane from left to right and keeps the sides that it cuts in order from below. Two that
-meet are neighbours in that order before they do, so only neighbours are compared, when they become so::
+A line goes over the plane from left to right and keeps the sides that it cuts in order from below.
+Two that meet are neighbours in that order before they do, so only neighbours are compared, when
+they become so::
 
             \\   /            order at | :  c, b, a
         a----\\-|/----
@@ -12,7 +26,9 @@ meet are neighbours in that order before they do, so only neighbours are compare
 
 
 def crossing(corners):
-    """Numbers of two sides that share more than the corner between neighbours; None where there are none.
+    """Numbers of two sides that share more than the corner between neighbours.
+
+    None where there are none.
 
     `corners`: (x, y), no two the same in a row. Side i goes from corner i to the next one.
     """
@@ -20,11 +36,18 @@ def crossing(corners):
     twice = same_corner(corners)
     if twice:
         return twice
-    ends = sorted([(side[0], 0, number) for number, side in enumerate(sides)]
-                  + [(side[1], 1, number) for number, side in enumerate(sides)])
+    ends = sorted(
+        [(side[0], 0, number) for number, side in enumerate(sides)]
+        + [(side[1], 1, number) for number, side in enumerate(sides)]
+    )
     order = []  # numbers of the sides that the line cuts, from below
-    for point, is_end, number in ends:  # at one point begins come before ends, so what touches there is seen
-        at = place_of(point, order, sides, number) if is_end else place_in(point, sides[number], order, sides)
+    # at one point begins come before ends, so what touches there is seen
+    for point, is_end, number in ends:
+        at = (
+            place_of(point, order, sides, number)
+            if is_end
+            else place_in(point, sides[number], order, sides)
+        )
         if is_end:
             del order[at]
             pairs = [(at - 1, at)]
@@ -82,8 +105,11 @@ def meet(i, j, corners):
     if b == c or d == a:
         corner, one, other = (b, a, d) if b == c else (a, b, c)
         return turn(one, corner, other) == 0 and any(
-            (p - o) * (q - o) > 0 for p, q, o in zip(one, other, corner))
-    apart = any(max(a[k], b[k]) < min(c[k], d[k]) or max(c[k], d[k]) < min(a[k], b[k]) for k in (0, 1))
+            (p - o) * (q - o) > 0 for p, q, o in zip(one, other, corner)
+        )
+    apart = any(
+        max(a[k], b[k]) < min(c[k], d[k]) or max(c[k], d[k]) < min(a[k], b[k]) for k in (0, 1)
+    )
     return not apart and turn(a, b, c) * turn(a, b, d) <= 0 and turn(c, d, a) * turn(c, d, b) <= 0
 
 

@@ -1,24 +1,62 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Terrain as surveys give it: ESRI ASCII grids read here, GeoTIFF by rasterio where it is installed."""
+
 import warnings
 
 import numpy as np
 
-from ..optional_packages import how_to_get
 from .height_grid import Grid, UNITS
 from .input_file import decoded
 from .schema import CourseError, shown
+from ..optional_packages import how_to_get
 
 HINT = f'needs rasterio: {how_to_get("terrain", "rasterio")}'
 MOST = 4_000_000  # heights: 2 km x 2 km at 1 m
-PROJECT = 'project it to metres, as with `gdalwarp -t_srs EPSG:{zone} -tr 1 1 -r cubic in.tif out.tif`'
-NAMES = ('ncols', 'nrows', 'xllcorner', 'yllcorner', 'xllcenter', 'yllcenter', 'cellsize', 'dx', 'dy',
-         'nodata_value')
+PROJECT = (
+    'project it to metres, as with `gdalwarp -t_srs EPSG:{zone} -tr 1 1 -r cubic in.tif out.tif`'
+)
+NAMES = (
+    'ncols',
+    'nrows',
+    'xllcorner',
+    'yllcorner',
+    'xllcenter',
+    'yllcenter',
+    'cellsize',
+    'dx',
+    'dy',
+    'nodata_value',
+)
 SQUARE = 1e-6  # relative: cells are as long as they are wide
 DEGREES = 0.02  # of a cell: 2 km, or 2 cm
-BAND_UNITS = {'m': 'metres', 'metre': 'metres', 'metres': 'metres', 'meter': 'metres', 'meters': 'metres',
-              'ft': 'feet', 'foot': 'feet', 'feet': 'feet', 'us-ft': 'us_feet', 'us survey foot': 'us_feet',
-              'us_survey_foot': 'us_feet', 'foot_us': 'us_feet', 'ftus': 'us_feet'}
+BAND_UNITS = {
+    'm': 'metres',
+    'metre': 'metres',
+    'metres': 'metres',
+    'meter': 'metres',
+    'meters': 'metres',
+    'ft': 'feet',
+    'foot': 'feet',
+    'feet': 'feet',
+    'us-ft': 'us_feet',
+    'us survey foot': 'us_feet',
+    'us_survey_foot': 'us_feet',
+    'foot_us': 'us_feet',
+    'ftus': 'us_feet',
+}
 
 
 def esri(raw, unit):
@@ -35,12 +73,17 @@ def esri(raw, unit):
     except (TypeError, ValueError, OverflowError) as error:
         raise CourseError(f'is no ESRI ASCII grid: {" ".join(str(error).split())}') from None
     if min(rows, columns) < 0 or rows * columns != len(heights):
-        raise CourseError(f'is no ESRI ASCII grid: it tells of {shown(rows)} rows of {shown(columns)} heights'
-                          f' and has {len(heights)}')
+        raise CourseError(
+            f'is no ESRI ASCII grid: it tells of {shown(rows)} rows of {shown(columns)} heights'
+            f' and has {len(heights)}'
+        )
     check_square(dx, dy)
     if unit is None and 0 < dx < DEGREES and abs(corner[0]) <= 360 and abs(corner[1]) <= 90:
-        raise CourseError(f'seems to be in degrees, at {corner[0]:g}, {corner[1]:g}: '
-                          + PROJECT.format(zone=utm(*corner)) + ', or say `unit: metres`')
+        raise CourseError(
+            f'seems to be in degrees, at {corner[0]:g}, {corner[1]:g}: '
+            + PROJECT.format(zone=utm(*corner))
+            + ', or say `unit: metres`'
+        )
     heights = heights.reshape(rows, columns)[::-1]
     return Grid(heights, heights == none, corner, dx)
 
@@ -66,8 +109,10 @@ def esri_head(words):
 def check_square(dx, dy):
     """Refuse cells that are no squares."""
     if not (0 < dx < np.inf and abs(dx - dy) <= SQUARE * dx):
-        raise CourseError(f'has cells of {dx:g} x {dy:g}, and they must be squares: resample it, as with '
-                          '`gdalwarp -tr 1 1 -r cubic in.tif out.tif`')
+        raise CourseError(
+            f'has cells of {dx:g} x {dy:g}, and they must be squares: resample it, as with '
+            '`gdalwarp -tr 1 1 -r cubic in.tif out.tif`'
+        )
 
 
 def utm(longitude, latitude):
@@ -100,8 +145,12 @@ def grid_of(file):
     if file.count != 1:
         raise CourseError(f'has {file.count} bands, and a height map has one')
     if file.width * file.height > MOST:
-        raise CourseError(f'has {file.width} x {file.height} heights, over {MOST}: cut out what is played on')
-    if not np.issubdtype(np.dtype(file.dtypes[0]), np.integer) and not file.dtypes[0].startswith('float'):
+        raise CourseError(
+            f'has {file.width} x {file.height} heights, over {MOST}: cut out what is played on'
+        )
+    if not np.issubdtype(np.dtype(file.dtypes[0]), np.integer) and not file.dtypes[0].startswith(
+        'float'
+    ):
         raise CourseError(f'must hold numbers, not {file.dtypes[0]}')
     raw = file.read(1)
     heights = raw.astype(float) * file.scales[0] + file.offsets[0]
@@ -112,13 +161,21 @@ def grid_of(file):
     if file.crs is not None and file.crs.is_geographic:
         raise CourseError('is in degrees: ' + PROJECT.format(zone=utm(way.c, way.f)))
     if way.b or way.d or way.a < 0:
-        raise CourseError('is turned against its coordinates: `gdalwarp -r cubic in.tif out.tif` turns it')
+        raise CourseError(
+            'is turned against its coordinates: `gdalwarp -r cubic in.tif out.tif` turns it'
+        )
     check_square(way.a, abs(way.e))
     low = way.f + way.e * (file.height - 0.5) if way.e < 0 else way.f + 0.5 * way.e
     if way.e < 0:
         heights, missing = heights[::-1], missing[::-1]
-    return Grid(heights, missing, (way.c + 0.5 * way.a, low), way.a, unit_of(file.crs),
-                BAND_UNITS.get((file.units[0] or '').lower()))
+    return Grid(
+        heights,
+        missing,
+        (way.c + 0.5 * way.a, low),
+        way.a,
+        unit_of(file.crs),
+        BAND_UNITS.get((file.units[0] or '').lower()),
+    )
 
 
 def unit_of(crs):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """YAML files, read strictly: no key twice, one line for every error, '1e-3' is a number, '1:30' is none."""
+
 from contextlib import contextmanager
 import gc
 import re
@@ -15,8 +29,10 @@ REFUSALS = (ValueError, KeyError, AttributeError, IndexError, TypeError, Overflo
 NUMBER = re.compile(r'[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$')
 # YAML 1.1 without its sexagesimals: 1:30 is a time of day, and no coordinate of 90.
 INT = re.compile(r'[-+]?(0b[0-1_]+|0[0-7_]+|0|[1-9][0-9_]*|0x[0-9a-fA-F_]+)$')
-FLOAT = re.compile(r'([-+]?[0-9][0-9_]*\.[0-9_]*([eE][-+][0-9]+)?|\.[0-9][0-9_]*([eE][-+][0-9]+)?'
-                   r'|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN))$')
+FLOAT = re.compile(
+    r'([-+]?[0-9][0-9_]*\.[0-9_]*([eE][-+][0-9]+)?|\.[0-9][0-9_]*([eE][-+][0-9]+)?'
+    r'|[-+]?\.(inf|Inf|INF)|\.(nan|NaN|NAN))$'
+)
 REPLACED = {'tag:yaml.org,2002:int': INT, 'tag:yaml.org,2002:float': FLOAT}
 
 
@@ -25,7 +41,8 @@ class Loader(getattr(yaml, 'CSafeLoader', yaml.SafeLoader)):
 
     yaml_implicit_resolvers = {
         first: [(tag, REPLACED.get(tag, pattern)) for tag, pattern in found]
-        for first, found in yaml.SafeLoader.yaml_implicit_resolvers.items()}
+        for first, found in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    }
 
     def construct_object(self, node, deep=False):
         """Value of `node`; CourseError with its line where it has none."""
@@ -36,8 +53,10 @@ class Loader(getattr(yaml, 'CSafeLoader', yaml.SafeLoader)):
                 raise
             reason = f': {_one_line(error)}' if isinstance(error, ValueError) else ''
             kind = node.tag.rpartition(':')[2]
-            raise CourseError(f'line {node.start_mark.line + 1}: is not valid YAML: {shown(_written(node))} '
-                              f'is no {kind}{reason}') from None
+            raise CourseError(
+                f'line {node.start_mark.line + 1}: is not valid YAML: {shown(_written(node))} '
+                f'is no {kind}{reason}'
+            ) from None
 
 
 Loader.add_implicit_resolver('tag:yaml.org,2002:float', NUMBER, list('-+.0123456789'))
@@ -116,8 +135,10 @@ def _refuse_repeated(keys):
         if isinstance(key, yaml.ScalarNode):
             line = key.start_mark.line + 1
             if key.value in lines:
-                raise CourseError(f'line {line}: key {shown(key.value)} is already in line '
-                                  f'{lines[key.value]}; a key may appear once')
+                raise CourseError(
+                    f'line {line}: key {shown(key.value)} is already in line '
+                    f'{lines[key.value]}; a key may appear once'
+                )
             lines[key.value] = line
 
 
@@ -133,7 +154,9 @@ def _refuse_explosions(root):
             left.append((node, True))
             left += [(child, False) for child in _children(node) if id(child) not in sizes]
     if sizes[id(root)] > max(MOST, 4 * len(sizes)):
-        raise CourseError(f'is too large: its aliases make {len(sizes)} values {shown(sizes[id(root)])}')
+        raise CourseError(
+            f'is too large: its aliases make {len(sizes)} values {shown(sizes[id(root)])}'
+        )
 
 
 def _written(node):

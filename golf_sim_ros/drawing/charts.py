@@ -1,8 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Speed, height and spin over the time since the strike."""
+
 import numpy as np
 
-from .style import GRID, bare, colors
+from .style import bare, colors, GRID
 from .views import path, touches
 
 
@@ -11,8 +25,12 @@ def charts(axes, shots):
     for place, (title, amount, at_bounce) in zip(axes, CHARTS):
         for shot, color in zip(shots, colors(len(shots))):
             path(place, shot, shot.times - shot.times[0], amount(shot), color, len(shots))
-            touches(place, [(c.time - shot.times[0], at_bounce(shot, c)) for c in shot.collisions], color,
-                    len(shots))
+            touches(
+                place,
+                [(c.time - shot.times[0], at_bounce(shot, c)) for c in shot.collisions],
+                color,
+                len(shots),
+            )
         place.set_xlim(0.0, max(shot.times[-1] - shot.times[0] for shot in shots) * 1.02 + 1e-3)
         place.grid(color=GRID, linewidth=0.6, zorder=0)
         place.set_axisbelow(True)
@@ -41,6 +59,10 @@ def spin(shot):
 
 CHARTS = (
     ('Speed [m/s]', speed, lambda shot, hit: np.linalg.norm(hit.velocity_after)),
-    ('Height over the strike [m]', height, lambda shot, hit: hit.position[2] - shot.positions[0, 2]),
+    (
+        'Height over the strike [m]',
+        height,
+        lambda shot, hit: hit.position[2] - shot.positions[0, 2],
+    ),
     ('Spin [rad/s]', spin, lambda shot, hit: np.linalg.norm(hit.spin_after)),
 )

@@ -1,15 +1,30 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The course under a play: from above, and cut open along the paths."""
+
 import numpy as np
 
-from ..physics.scene.kernel_model import materials
 from .relief import grid_relief, relief
 from .zone_triangles import in_region
+from ..physics.scene.kernel_model import materials
 
-LIGHT = 2.5     # how much brighter a slope of 1 is that rises towards the right and up
-SHADE = 0.22    # at most so much brighter or darker
+LIGHT = 2.5  # how much brighter a slope of 1 is that rises towards the right and up
+SHADE = 0.22  # at most so much brighter or darker
 NOTHING = (1.0, 1.0, 1.0)
-WATER, CLEAR = (0.20, 0.45, 0.70), 0.25  # colour of water, and how much of the ground shines through
+# colour of water, and how much of the ground shines through
+WATER, CLEAR = (0.20, 0.45, 0.70), 0.25
 
 
 def paint(axes, course, window, pixels):
@@ -33,9 +48,14 @@ def paint(axes, course, window, pixels):
     y = np.arange(window.low, window.high, side) + 0.5 * side
     heights, numbers = grid_relief(course, x, y)
     colors = flooded(tints(course, numbers) * lit(heights, side), course, heights, x, y)
-    axes.imshow(np.clip(colors, 0.0, 1.0), origin='lower',
-                extent=(window.left, window.right, window.low, window.high), aspect='auto',
-                interpolation='antialiased', zorder=0)
+    axes.imshow(
+        np.clip(colors, 0.0, 1.0),
+        origin='lower',
+        extent=(window.left, window.right, window.low, window.high),
+        aspect='auto',
+        interpolation='antialiased',
+        zorder=0,
+    )
     return set(numbers.flat) - {-1}
 
 
@@ -83,8 +103,14 @@ def cut_open(axes, course, shots, along, places):
     for start, end in zip(starts, [*starts[1:], len(places) - 1]):
         if numbers[start] >= 0:
             part = slice(start, end + 1)
-            axes.fill_between(places[part], heights[part], -1e4, linewidth=0.0, zorder=1,
-                              color=tints(course, numbers[start]))
+            axes.fill_between(
+                places[part],
+                heights[part],
+                -1e4,
+                linewidth=0.0,
+                zorder=1,
+                color=tints(course, numbers[start]),
+            )
     return heights
 
 

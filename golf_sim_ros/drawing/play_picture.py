@@ -1,28 +1,46 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Picture of a play, and where its parts go."""
+
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from ..physics.scene.kernel_model import materials
 from . import table, wind
 from .charts import charts
 from .shots import detailed
-from .style import INK, PALE, SMALL, TITLE, bare
+from .style import bare, INK, PALE, SMALL, TITLE
 from .views import above, from_side
 from .window import near_hole, window
+from ..physics.scene.kernel_model import materials
 
 # Inches, all of them.
 WIDTH, LEFT, RIGHT, TOP, BOTTOM = 12.0, 0.7, 0.3, 0.98, 0.2
-SIDE, CHARTS = 1.75, 2.1      # heights
-KEY, GAP = 0.85, 0.6          # below the view from above, and below the charts
-APART = 0.62                  # between charts
+SIDE, CHARTS = 1.75, 2.1  # heights
+KEY, GAP = 0.85, 0.6  # below the view from above, and below the charts
+APART = 0.62  # between charts
 ROSE = 0.75
 INNER = WIDTH - LEFT - RIGHT
 
-MARKS = (('strike', 'D', INK, 'white'), ('bounce', 'o', 'white', INK), ('end', 'o', INK, 'white'),
-         ('tee', 's', 'white', 'black'))
+MARKS = (
+    ('strike', 'D', INK, 'white'),
+    ('bounce', 'o', 'white', INK),
+    ('end', 'o', INK, 'white'),
+    ('tee', 's', 'white', 'black'),
+)
 
 
 def draw(path, shots, course=None, title='', dpi=150):
@@ -113,12 +131,32 @@ def drawn_like(axes, height, course, numbers):
     """Explain colours and marks below `axes`, `height` inches high."""
     seen = [materials(course)[i] for i in sorted(numbers)]
     key = [Patch(facecolor=material.color, label=material.name) for material in seen]
-    for label, mark, fill, edge in MARKS[:len(MARKS) if course else -1]:
-        key.append(Line2D([], [], marker=mark, markerfacecolor=fill, markeredgecolor=edge, linestyle='none',
-                          markersize=5, label=label))
-    axes.legend(handles=key, loc='upper right', bbox_to_anchor=(1.0, -0.27 / height), borderaxespad=0.0,
-                ncol=len(key), frameon=False, fontsize=SMALL, labelcolor=PALE, handlelength=1.1,
-                handletextpad=0.5, columnspacing=1.4)
+    for label, mark, fill, edge in MARKS[: len(MARKS) if course else -1]:
+        key.append(
+            Line2D(
+                [],
+                [],
+                marker=mark,
+                markerfacecolor=fill,
+                markeredgecolor=edge,
+                linestyle='none',
+                markersize=5,
+                label=label,
+            )
+        )
+    axes.legend(
+        handles=key,
+        loc='upper right',
+        bbox_to_anchor=(1.0, -0.27 / height),
+        borderaxespad=0.0,
+        ncol=len(key),
+        frameon=False,
+        fontsize=SMALL,
+        labelcolor=PALE,
+        handlelength=1.1,
+        handletextpad=0.5,
+        columnspacing=1.4,
+    )
 
 
 def headed(figure, shots, course, title):
@@ -126,7 +164,20 @@ def headed(figure, shots, course, title):
     played = f'{len(shots)} shot' + 's' * (len(shots) > 1)
     seconds = sum(shot.result.duration for shot in shots)
     high = figure.get_size_inches()[1]
-    figure.text(LEFT / WIDTH, 1.0 - 0.2 / high, title or (course.name if course else 'A play'), va='top',
-                fontsize=TITLE, fontweight='bold', color=INK)
-    figure.text(LEFT / WIDTH, 1.0 - 0.46 / high, f'{played}, {seconds:.0f} s of play', va='top',
-                fontsize=SMALL + 1, color=PALE)
+    figure.text(
+        LEFT / WIDTH,
+        1.0 - 0.2 / high,
+        title or (course.name if course else 'A play'),
+        va='top',
+        fontsize=TITLE,
+        fontweight='bold',
+        color=INK,
+    )
+    figure.text(
+        LEFT / WIDTH,
+        1.0 - 0.46 / high,
+        f'{played}, {seconds:.0f} s of play',
+        va='top',
+        fontsize=SMALL + 1,
+        color=PALE,
+    )

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Triangulation of polygons with holes."""
+
 from collections import Counter
 from math import isclose
 
@@ -7,11 +21,12 @@ from math import isclose
 def triangles(outline, cuts=(), window=None, regions=()):
     """Triangles, tuples of three (x, y) counterclockwise, that cover `outline` except for `cuts`.
 
-    With a `window`, only what lies in that polygon, too. `regions` are cuts with holes: pairs of an outline
-    and a sequence of polygons.
+    With a `window`, only what lies in that polygon, too. `regions` are cuts with holes: pairs of
+    an outline and a sequence of polygons.
 
-    The plane is sliced into slabs at the y of every corner and crossing. Within a slab no two edges
-    cross, so the parts between neighbouring edges are trapezoids, each all inside or all outside::
+    The plane is sliced into slabs at the y of every corner and crossing. Within a slab no two
+    edges cross, so the parts between neighbouring edges are trapezoids, each all inside or all
+    outside::
 
         y1 ----/----\\--------/---
               / kept \\  cut  / kept
@@ -19,10 +34,16 @@ def triangles(outline, cuts=(), window=None, regions=()):
 
     Polygons are tuples of (x, y) in either direction; they may be concave and overlap each other.
     """
-    state = Inside([outline, *([window] if window else [])],
-                   [*((cut, ()) for cut in cuts), *((cut, holes) for cut, holes in regions)])
-    edges = [(*upward(edge), owner) for owner, polygon in enumerate(state.polygons)
-             for edge in sides(polygon) if edge[0][1] != edge[1][1]]
+    state = Inside(
+        [outline, *([window] if window else [])],
+        [*((cut, ()) for cut in cuts), *((cut, holes) for cut, holes in regions)],
+    )
+    edges = [
+        (*upward(edge), owner)
+        for owner, polygon in enumerate(state.polygons)
+        for edge in sides(polygon)
+        if edge[0][1] != edge[1][1]
+    ]
     levels = sorted({y for polygon in state.polygons for _, y in polygon} | set(crossings(edges)))
     found = []
     for low, high, through in slabs(edges, levels):
@@ -35,7 +56,8 @@ def triangles(outline, cuts=(), window=None, regions=()):
 class Inside:
     """Which polygons a place is in, on its way from left to right through a slab.
 
-    `kept`: polygons that it must be in; `gone`: pairs of a polygon and its holes, in none of which it may be.
+    `kept`: polygons that it must be in; `gone`: pairs of a polygon and its holes, in none of which
+    it may be.
     """
 
     def __init__(self, kept, gone):
@@ -60,8 +82,11 @@ class Inside:
             if number is not None:
                 covers = self.first[number] in odd and holes[number] == 0
                 (covered.add if covers else covered.discard)(number)
-            if kept == self.kept and not covered and not isclose(
-                    sum(left), sum(right), rel_tol=1e-12, abs_tol=2e-12):
+            if (
+                kept == self.kept
+                and not covered
+                and not isclose(sum(left), sum(right), rel_tol=1e-12, abs_tol=2e-12)
+            ):
                 yield left, right
 
 
@@ -106,8 +131,14 @@ def slabs(edges, levels):
             active.append(waiting[begin])
             begin += 1
         active = [edge for edge in active if edge[1][1] >= high]
-        yield low, high, sorted((at(edge, 0.5 * (low + high)), at(edge, low), at(edge, high), edge[2])
-                                for edge in active)
+        yield (
+            low,
+            high,
+            sorted(
+                (at(edge, 0.5 * (low + high)), at(edge, low), at(edge, high), edge[2])
+                for edge in active
+            ),
+        )
 
 
 def at(edge, y):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The ground from above, at many places at once."""
+
 import numpy as np
 
 from ..physics.geometry import surfaces
@@ -9,7 +23,10 @@ COARSE = 4  # places of a grid to one that is always looked at
 
 
 def look_down(ground, xs, ys, heights, numbers):
-    """Find the highest ground at every place. Writes heights and numbers of materials; -1 without ground."""
+    """Find the highest ground at every place.
+
+    Writes heights and numbers of materials; -1 without ground.
+    """
     for i in range(len(xs)):
         z, part = surfaces.top(ground, xs[i], ys[i])
         heights[i] = z
@@ -30,7 +47,8 @@ def relief(course, x, y):
     heights : ndarray
         [m]; not a number where there is no ground.
     numbers : ndarray of int
-        Rows of `golf_sim_ros.physics.scene.kernel_model.materials(course)`; -1 where there is no ground.
+        Rows of `golf_sim_ros.physics.scene.kernel_model.materials(course)`; -1 where there is no
+        ground.
     """
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
     heights, numbers = np.empty(x.size), np.empty(x.size, np.int64)
@@ -42,8 +60,8 @@ def relief(course, x, y):
 def grid_relief(course, x, y):
     """`relief` at the places of a grid, looked at closely only where the material changes.
 
-    Elsewhere heights are interpolated between every fourth place: what is smaller than that, and far from any
-    edge, is not seen. In plain Python a picture takes 2 s so, a whole grid 20.
+    Elsewhere heights are interpolated between every fourth place: what is smaller than that, and
+    far from any edge, is not seen. In plain Python a picture takes 2 s so, a whole grid 20.
 
     Parameters
     ----------
@@ -58,8 +76,10 @@ def grid_relief(course, x, y):
     """
     columns, rows = coarse(len(x)), coarse(len(y))
     heights, numbers = relief(course, x[columns], y[rows][:, np.newaxis])
-    near = np.searchsorted(rows, np.arange(len(y)), 'right') - 1, np.searchsorted(
-        columns, np.arange(len(x)), 'right') - 1
+    near = (
+        np.searchsorted(rows, np.arange(len(y)), 'right') - 1,
+        np.searchsorted(columns, np.arange(len(x)), 'right') - 1,
+    )
     edges = near_edges(numbers)[np.ix_(*near)]
     along = np.array([np.interp(x, x[columns], row) for row in heights])
     fine = np.array([np.interp(y, y[rows], column) for column in along.T]).T

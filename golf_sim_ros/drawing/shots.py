@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Shots to be drawn, from a simulation or a recording."""
+
 from typing import NamedTuple
 
 import numpy as np
@@ -39,8 +53,15 @@ class DrawnShot(NamedTuple):
 
 def drawn(play, wind=ZERO):
     """`DrawnShot` of a `golf_sim_ros.physics.Play`; `wind` is what was given to `simulate`."""
-    return DrawnShot(play.result, play.collisions, play.times, play.positions, play.velocities,
-                     play.spins, checked_gusts(wind))
+    return DrawnShot(
+        play.result,
+        play.collisions,
+        play.times,
+        play.positions,
+        play.velocities,
+        play.spins,
+        checked_gusts(wind),
+    )
 
 
 def detailed(shot):
@@ -58,4 +79,5 @@ def detailed(shot):
         times=with_hits(shot.times, 'time', 'time'),
         positions=with_hits(shot.positions, 'position', 'position'),
         velocities=with_hits(shot.velocities, 'velocity_before', 'velocity_after'),
-        spins=with_hits(shot.spins, 'spin_before', 'spin_after'))
+        spins=with_hits(shot.spins, 'spin_before', 'spin_after'),
+    )

@@ -1,12 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Colours, sizes and strokes that the parts of a picture share."""
+
 from matplotlib import colormaps
 from matplotlib.patheffects import withStroke
 
 INK, PALE, GRID, SKY = '#22282b', '#68747a', '#d9dfe2', '#f1f6f9'
 SMALL, TEXT, TITLE = 8.0, 9.0, 14.0  # points
 
-# Colours that stay apart on grass, on sand and on paper, for colour-blind eyes too: after Okabe and Ito.
+# Colours that stay apart on grass, on sand and on paper, for colour-blind eyes too: after Okabe
+# and Ito.
 FEW = ('#d55e00', '#0072b2', '#e6a100', '#b0468c', '#39a7e0', '#22282b')
 CASING = [withStroke(linewidth=2.6, foreground='white', alpha=0.85)]
 THIN_CASING = [withStroke(linewidth=1.7, foreground='white', alpha=0.6)]

@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Table of the results of the shots."""
+
 from math import degrees, hypot
 
 import numpy as np
 
 from . import wind
-from .style import GRID, INK, PALE, SMALL, colors
+from .style import colors, GRID, INK, PALE, SMALL
 
-ROW = 0.22   # inches
+ROW = 0.22  # inches
 ENDINGS = {'at_rest': 'at rest', 'out_of_bounds': 'out of bounds', 'time_limit': 'time limit'}
 
 
@@ -27,7 +41,8 @@ def flight(value):
     return lambda shot: value(shot.result) if shot.flew else '–'
 
 
-WORDS = ('ball', 'ended', 'lie')  # columns of words stand to the left, those of numbers to the right
+# columns of words stand to the left, those of numbers to the right
+WORDS = ('ball', 'ended', 'lie')
 GAP = 0.015
 
 # Heading, unit, width against the others, text of a shot.

@@ -1,19 +1,36 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Paths from above and from the side."""
+
 import numpy as np
 
 from . import ground
-from .style import FEW, HALO, SKY, SMALL, bare, colors, legible, stroke
+from .style import bare, colors, FEW, HALO, legible, SKY, SMALL, stroke
 
-HOLE_RADIUS = 0.054   # m, Rules of Golf
-APART = 0.17          # inches between two numbers of shots
-ROOM = 0.25           # inches that a number takes beside its end
-STEEPEST = 6.0        # heights are enlarged at most so many times
-ENDS = {'at_rest': 'o', 'holed': 'o'}    # other ends are crosses
+HOLE_RADIUS = 0.054  # m, Rules of Golf
+APART = 0.17  # inches between two numbers of shots
+ROOM = 0.25  # inches that a number takes beside its end
+STEEPEST = 6.0  # heights are enlarged at most so many times
+ENDS = {'at_rest': 'o', 'holed': 'o'}  # other ends are crosses
 
 
 def above(axes, shots, course, window, size, pixels):
-    """Draw `shots` from above into `axes`, `size` inches wide and high; return the materials seen."""
+    """Draw `shots` from above into `axes`, `size` inches wide and high.
+
+    Return the materials seen.
+    """
     seen = ground.paint(axes, course, window, pixels) if course else set()
     for shot, color in zip(shots, colors(len(shots))):
         path(axes, shot, shot.positions[:, 0], shot.positions[:, 1], color, len(shots))
@@ -28,26 +45,55 @@ def above(axes, shots, course, window, size, pixels):
 
 def path(axes, shot, x, y, color, shots):
     """Draw one line of a shot among `shots`, labelled with its number."""
-    axes.plot(x, y, color=color, zorder=5, solid_capstyle='round', label=f'shot {shot.result.shot}',
-              **stroke(shots))
+    axes.plot(
+        x,
+        y,
+        color=color,
+        zorder=5,
+        solid_capstyle='round',
+        label=f'shot {shot.result.shot}',
+        **stroke(shots),
+    )
 
 
 def touches(axes, places, color, shots):
     """Draw the bounces of one of `shots` shots at `places`, rows of x, y."""
     if len(places):
         size = 3.2 if shots <= len(FEW) else 2.0
-        axes.plot(*zip(*places), 'o', markersize=size, markerfacecolor='white', markeredgecolor=color,
-                  markeredgewidth=0.28 * size, linestyle='none', zorder=6)
+        axes.plot(
+            *zip(*places),
+            'o',
+            markersize=size,
+            markerfacecolor='white',
+            markeredgecolor=color,
+            markeredgewidth=0.28 * size,
+            linestyle='none',
+            zorder=6,
+        )
 
 
 def ends(axes, shots, axis):
     """Draw where `shots` began and ended; `axis` says which two coordinates are seen."""
     for shot, color in zip(shots, colors(len(shots))):
         mark, size = ENDS.get(shot.result.status, 'X'), 6.5 if len(shots) <= len(FEW) else 5.0
-        axes.plot(*shot.positions[0, list(axis)], 'D', color=color, markersize=0.6 * size,
-                  markeredgecolor='white', markeredgewidth=0.5, zorder=7)
-        axes.plot(*shot.positions[-1, list(axis)], mark, color=color, markersize=size,
-                  markeredgecolor='white', markeredgewidth=0.9, zorder=8)
+        axes.plot(
+            *shot.positions[0, list(axis)],
+            'D',
+            color=color,
+            markersize=0.6 * size,
+            markeredgecolor='white',
+            markeredgewidth=0.5,
+            zorder=7,
+        )
+        axes.plot(
+            *shot.positions[-1, list(axis)],
+            mark,
+            color=color,
+            markersize=size,
+            markeredgecolor='white',
+            markeredgewidth=0.9,
+            zorder=8,
+        )
 
 
 def number(axes, shots, hole, scale):
@@ -62,30 +108,60 @@ def number(axes, shots, hole, scale):
         ahead, above_it = (flag_place - places[i]) / scale
         left = places[i][0] > edge or 0.0 <= ahead < 1.3 * ROOM and abs(above_it) < 1.3 * ROOM
         side = {'xytext': (-5, 5), 'ha': 'right'} if left else {'xytext': (5, 5)}
-        text = axes.annotate(str(shots[i].result.shot), places[i], **side, textcoords='offset points',
-                             fontsize=SMALL, fontweight='bold', color=colors(len(shots))[i], zorder=9,
-                             annotation_clip=True)
+        text = axes.annotate(
+            str(shots[i].result.shot),
+            places[i],
+            **side,
+            textcoords='offset points',
+            fontsize=SMALL,
+            fontweight='bold',
+            color=colors(len(shots))[i],
+            zorder=9,
+            annotation_clip=True,
+        )
         text.set_path_effects(HALO)
 
 
 def furniture(axes, course):
     """Draw tee, hole and bounds."""
-    axes.plot(*course.tee, 's', color='white', markeredgecolor='black', markeredgewidth=0.6, markersize=4.5,
-              zorder=4)
+    axes.plot(
+        *course.tee,
+        's',
+        color='white',
+        markeredgecolor='black',
+        markeredgewidth=0.6,
+        markersize=4.5,
+        zorder=4,
+    )
     if course.bounds:
-        axes.plot(*zip(*course.bounds, course.bounds[0]), color='white', linestyle=(0, (4, 3)), linewidth=1.0,
-                  zorder=3)
+        axes.plot(
+            *zip(*course.bounds, course.bounds[0]),
+            color='white',
+            linestyle=(0, (4, 3)),
+            linewidth=1.0,
+            zorder=3,
+        )
     if course.hole:
         x, y = course.hole
         turn = np.linspace(0.0, 2 * np.pi, 49)
-        axes.fill(x + HOLE_RADIUS * np.cos(turn), y + HOLE_RADIUS * np.sin(turn), color='black', zorder=4)
+        axes.fill(
+            x + HOLE_RADIUS * np.cos(turn), y + HOLE_RADIUS * np.sin(turn), color='black', zorder=4
+        )
         flag(axes, x, y)
 
 
 def flag(axes, x, y):
     """Draw a flagstick of fixed size at `x`, `y`."""
-    axes.plot(x, y, marker=[(0, 0), (0, 2), (0.9, 1.6), (0, 1.2), (0, 0)], markersize=22,
-              markerfacecolor='#d3212c', markeredgecolor='white', markeredgewidth=0.7, zorder=7)
+    axes.plot(
+        x,
+        y,
+        marker=[(0, 0), (0, 2), (0.9, 1.6), (0, 1.2), (0, 0)],
+        markersize=22,
+        markerfacecolor='#d3212c',
+        markeredgecolor='white',
+        markeredgewidth=0.7,
+        zorder=7,
+    )
 
 
 def from_side(axes, shots, course, window, size):
@@ -98,7 +174,9 @@ def from_side(axes, shots, course, window, size):
     low, high, times = span(heights, (limits[1] - limits[0]) * size[1] / size[0])
     for shot, color in zip(shots, colors(len(shots))):
         path(axes, shot, shot.positions[:, along], shot.positions[:, 2], color, len(shots))
-        touches(axes, [(c.position[along], c.position[2]) for c in shot.collisions], color, len(shots))
+        touches(
+            axes, [(c.position[along], c.position[2]) for c in shot.collisions], color, len(shots)
+        )
     ends(axes, shots, (along, 2))
     axes.set(xlim=limits, ylim=(low, high), facecolor=SKY)
     bare(axes, f'From the side{enlarged(times)}', '' if along == 0 else 'y, left [m]', 'z, up [m]')
@@ -114,8 +192,10 @@ def span(heights, equal):
 
     `equal` is the span [m] in which heights would be shown as large as lengths.
     """
-    low, high = (choose([choose(h[np.isfinite(h)]) for h in heights if np.isfinite(h).any()])
-                 for choose in (min, max))
+    low, high = (
+        choose([choose(h[np.isfinite(h)]) for h in heights if np.isfinite(h).any()])
+        for choose in (min, max)
+    )
     shown = max(1.3 * (high - low), equal / STEEPEST)
     low -= 0.45 * (shown - (high - low))
     return low, low + shown, equal / shown

@@ -1,14 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Part of the course that a picture shows."""
+
 from typing import NamedTuple
 
 import numpy as np
 
-MARGIN = 0.04       # of the longer side, around all that is drawn
-LEAST = 1.0         # m: a ball that hardly moved is not drawn larger than this
+MARGIN = 0.04  # of the longer side, around all that is drawn
+LEAST = 1.0  # m: a ball that hardly moved is not drawn larger than this
 TALL = (0.16, 0.42)  # height over width of the view from above
-FAR = 1.5           # of a play's length: where the hole is farther off, it isn't shown
-NEAR = 16.0        # ends nearer to the hole than the width over this are drawn once more, larger
+FAR = 1.5  # of a play's length: where the hole is farther off, it isn't shown
+NEAR = 16.0  # ends nearer to the hole than the width over this are drawn once more, larger
 
 
 class Window(NamedTuple):

@@ -1,11 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Triangles of the ground in the colours of its zones, for display."""
+
 from math import ceil, sqrt
 
 import numpy as np
 
-from ..physics.geometry.zone import zones_of
 from .polygon_triangles import sides, triangles
+from ..physics.geometry.zone import zones_of
 
 FEW = 20  # zones on a tile; fewer on all of a surface are drawn at once
 MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
@@ -17,7 +31,9 @@ def flat(outline, cuts, material, zones):
     near = Boxes([zone.polygon for zone in zones])
     base = []
     for tile in tiles(outline, len(zones)):
-        base += triangles(tile, cuts, outline, [(zones[i].polygon, zones[i].cut) for i in near.to(tile)])
+        base += triangles(
+            tile, cuts, outline, [(zones[i].polygon, zones[i].cut) for i in near.to(tile)]
+        )
     found = [(material, base)]
     for number, (paint, polygon, own) in enumerate(zones):
         later = [(zones[i].polygon, zones[i].cut) for i in near.to(polygon, number + 1)]
@@ -31,10 +47,15 @@ def tiles(outline, count):
     n = ceil(sqrt(count / FEW))
     if n <= 1:
         return [outline]
-    x, y = (np.linspace(low, high, n + 1).tolist()
-            for low, high in zip(np.min(outline, 0), np.max(outline, 0)))
-    return [((x[i], y[k]), (x[i + 1], y[k]), (x[i + 1], y[k + 1]), (x[i], y[k + 1]))
-            for i in range(n) for k in range(n)]
+    x, y = (
+        np.linspace(low, high, n + 1).tolist()
+        for low, high in zip(np.min(outline, 0), np.max(outline, 0))
+    )
+    return [
+        ((x[i], y[k]), (x[i + 1], y[k]), (x[i + 1], y[k + 1]), (x[i], y[k + 1]))
+        for i in range(n)
+        for k in range(n)
+    ]
 
 
 class Boxes:
@@ -61,8 +82,10 @@ def curved(corners, material, zones):
     """Pairs of a material and its triangles: each of `corners`, (n, 3, 3), is painted as its middle."""
     corners = np.asarray(corners, float)
     paint = last_zone(zones, *corners[..., :2].mean(1).T)
-    return [(zones[number][0] if number >= 0 else material, corners[paint == number])
-            for number in np.unique(paint)]
+    return [
+        (zones[number][0] if number >= 0 else material, corners[paint == number])
+        for number in np.unique(paint)
+    ]
 
 
 def last_zone(zones, x, y):
@@ -90,12 +113,17 @@ def holds(polygon, x, y):
 
 
 def cells(heights, origin, spacing):
-    """Triangles (n, 3, 3) of a height map, two a cell; of a large one, of every second or third height."""
+    """Triangles (n, 3, 3) of a height map, two a cell.
+
+    Of a large one, of every second or third height.
+    """
     heights = np.asarray(heights, float)
     ny, nx = heights.shape
     stride = max(1, ceil(sqrt((ny - 1) * (nx - 1) / MOST_CELLS)))
     rows, columns = (np.unique([*range(0, n, stride), n - 1]) for n in (ny, nx))
-    return sheet(origin[0] + columns * spacing, origin[1] + rows * spacing, heights[np.ix_(rows, columns)])
+    return sheet(
+        origin[0] + columns * spacing, origin[1] + rows * spacing, heights[np.ix_(rows, columns)]
+    )
 
 
 def sheet(x, y, heights):

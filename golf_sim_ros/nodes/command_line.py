@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What is typed after the name of a node: help, mistakes that ROS would pass over, params files."""
+
 import os
 import re
 import shlex
@@ -19,22 +33,26 @@ HELP, VERSION = ('-h', '--help'), '--version'
 PARAM, REMAP, FILE = ('-p', '--param'), ('-r', '--remap'), '--params-file'
 TAKES_ONE = {*PARAM, *REMAP, FILE, '--log-level', '-e', '--enclave', '--log-config-file'}
 ASSIGN, SECTION = ':=', 'ros__parameters'
-OF_LAUNCH = 'launch_params_'  # files of launch_ros: what a launch file gives to a single node, under /**
+# files of launch_ros: what a launch file gives to a single node, under /**
+OF_LAUNCH = 'launch_params_'
 UNKNOWN = rclpy_implementation.UnknownROSArgsError
-IN_RCL = re.compile(r', at [^\s,]+:\d+|^Failed to parse ROS arguments: ')  # of no use to who typed it
+# of no use to who typed it
+IN_RCL = re.compile(r', at [^\s,]+:\d+|^Failed to parse ROS arguments: ')
 
 
 class Program(NamedTuple):
     """What the command line of a node has to know of it."""
 
-    name: str       # of the executable
-    does: str       # in one line
+    name: str  # of the executable
+    does: str  # in one line
     parameters: dict  # name: (default, meaning)
-    example: str    # NAME:=VALUE
+    example: str  # NAME:=VALUE
 
 
 def answered(program, words=None):
-    """Exit code where `words` leave nothing to run, after one line or the help is printed; else None.
+    """Exit code where `words` leave nothing to run, after one line or the help is printed.
+
+    Else None.
 
     `words` are the arguments of the process, `sys.argv[1:]` if not given.
     """
@@ -57,12 +75,23 @@ def answered(program, words=None):
 
 def help_of(program):
     """Text of `--help`."""
-    lines = [f'usage: {command(program)} [--ros-args [-p NAME:=VALUE] [--params-file FILE] ...]', '',
-             program.does, '', 'parameters, with their defaults:']
+    lines = [
+        f'usage: {command(program)} [--ros-args [-p NAME:=VALUE] [--params-file FILE] ...]',
+        '',
+        program.does,
+        '',
+        'parameters, with their defaults:',
+    ]
     for name, (default, meaning) in program.parameters.items():
         lines += [f'  {name:<17} {shown(default):<21} {meaning}']
-    return '\n'.join([*lines, '', f'example: {command(program)} --ros-args -p {program.example}',
-                      '--version tells the version; what may follow --ros-args is as with every ROS 2 node'])
+    return '\n'.join(
+        [
+            *lines,
+            '',
+            f'example: {command(program)} --ros-args -p {program.example}',
+            '--version tells the version; what may follow --ros-args is as with every ROS 2 node',
+        ]
+    )
 
 
 def shown(default):
@@ -89,7 +118,10 @@ def split(words):
 
 
 def pairs(words):
-    """Flags of `words` with what follows those that take something; what has no flag follows ''."""
+    """Flags of `words` with what follows those that take something.
+
+    What has no flag follows ''.
+    """
     left = iter(words)
     for word in left:
         if word in TAKES_ONE:
@@ -99,16 +131,21 @@ def pairs(words):
 
 
 def misplaced(program, words):
-    """One line about the first word that has no effect where it stands, with the right command; or ''.
+    """One line about the first word that has no effect where it stands, with the right command.
 
-    rcl takes a bare `NAME:=VALUE` for a remap rule, and leaves alone all other words before `--ros-args`.
+    Or ''.
+
+    rcl takes a bare `NAME:=VALUE` for a remap rule, and leaves alone all other words before
+    `--ros-args`.
     """
     ros, ours = split(words)
     right, wrong = [], ''
     for flag, word in pairs(ours):
         name = word.partition(ASSIGN)[0]
         is_rule = ASSIGN in word
-        is_parameter = is_rule and flag not in REMAP and (name in program.parameters or flag in PARAM)
+        is_parameter = (
+            is_rule and flag not in REMAP and (name in program.parameters or flag in PARAM)
+        )
         if is_parameter:
             wrong = wrong or f'{word} sets no parameter without --ros-args'
             right += ['-p', word]
@@ -124,15 +161,22 @@ def misplaced(program, words):
 
 
 def objection(words):
-    """Exit code and one line about what rcl could not use of `words`; 0 and '' where there is nothing."""
+    """Exit code and one line about what rcl could not use of `words`.
+
+    0 and '' where there is nothing.
+    """
     for flag, rule in pairs(split(words)[0]):
         if (flag in PARAM and not all(rule.partition(ASSIGN))) or (not flag and ASSIGN in rule):
-            return WRONG_ARGUMENTS, f'{f"{flag} {rule}".strip()!r}: a parameter is given as -p NAME:=VALUE'
+            return (
+                WRONG_ARGUMENTS,
+                f'{f"{flag} {rule}".strip()!r}: a parameter is given as -p NAME:=VALUE',
+            )
     for path in params_files(words):
         reason = unreadable(path)
         if reason:
             return UNUSABLE, f'--params-file {path}: {reason}'
-    if all(os.path.isfile(path) for path in params_files(words)):  # of a pipe nothing is left to rclpy.init
+    # of a pipe nothing is left to rclpy.init
+    if all(os.path.isfile(path) for path in params_files(words)):
         return rcl_objection(words)
     return 0, ''
 
@@ -193,7 +237,11 @@ def sections(path):
     try:
         with open(path, encoding='utf-8') as file:
             return list(sections_of('', yaml.load(file, Loader=yaml.BaseLoader)))
-    except (OSError, ValueError, yaml.YAMLError):  # rcl could read it: nothing to complain about here
+    except (
+        OSError,
+        ValueError,
+        yaml.YAMLError,
+    ):  # rcl could read it: nothing to complain about here
         return []
 
 

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """How well the simulation keeps up with the clock, for /diagnostics."""
+
 from collections import deque
 from contextlib import contextmanager
 from math import ceil
@@ -7,8 +21,8 @@ from time import monotonic, perf_counter, process_time
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
-from ..physics import ACCURACY, cycles_now
 from .log_lines import with_reasons
+from ..physics import ACCURACY, cycles_now
 
 SLOW = 0.95  # simulated seconds a wall second; below this a viewer notices
 
@@ -55,27 +69,46 @@ class Diagnostics:
         self.last = now, time
 
     def take_account(self, spent):
-        """Update the shares [%] of time since the last call; `spent` are cycles of the engine by stage."""
-        new = {'clock': perf_counter(), 'cycles': cycles_now(), 'process': process_time(),
-               'tick': self.tick_time, 'publish': self.publish_time, **spent}
+        """Update the shares [%] of time since the last call.
+
+        `spent` are cycles of the engine by stage.
+        """
+        new = {
+            'clock': perf_counter(),
+            'cycles': cycles_now(),
+            'process': process_time(),
+            'tick': self.tick_time,
+            'publish': self.publish_time,
+            **spent,
+        }
         old, self.account = self.account, new
         if old is None:
             return
         passed = {name: new[name] - old[name] for name in new}
         wall, cycles = 0.01 * passed['clock'], 0.01 * passed['cycles']
         stages = {name: passed[name] / cycles for name in spent} if cycles else {}
-        self.shares = {**stages, 'all of a tick': passed['tick'] / wall, 'publish': passed['publish'] / wall,
-                       'all of the process': passed['process'] / wall}
+        self.shares = {
+            **stages,
+            'all of a tick': passed['tick'] / wall,
+            'publish': passed['publish'] / wall,
+            'all of the process': passed['process'] / wall,
+        }
 
     def values(self, world, lost):
-        """Values to publish about `world`, texts by name; `lost` [s] of wall time were given up."""
+        """Values to publish about `world`, texts by name.
+
+        `lost` [s] of wall time were given up.
+        """
         ordered = sorted(self.durations)
         return {
             'real-time factor': f'{self.factor:.3f}',
             'tick time p50 [us]': f'{1e6 * ordered[len(ordered) // 2]:.1f}',
             'tick time p99 [us]': f'{1e6 * ordered[int(0.99 * len(ordered))]:.1f}',
             'tick time max [us]': f'{1e6 * ordered[-1]:.1f}',
-            **{f'share of a core, {name} [%]': f'{share:.3f}' for name, share in self.shares.items()},
+            **{
+                f'share of a core, {name} [%]': f'{share:.3f}'
+                for name, share in self.shares.items()
+            },
             'balls that could not go on': str(world.failures),
             'last of them': world.last_failure or 'none',
             'strikes lost unseen': str(self.strikes_lost),
@@ -97,7 +130,9 @@ class Diagnostics:
 
 def diagnostic(stamp, name, slow, values):
     """DiagnosticArray with one status; a warning if the simulation is `slow`."""
-    status = DiagnosticStatus(level=DiagnosticStatus.OK, name=name, message='keeps up with the clock')
+    status = DiagnosticStatus(
+        level=DiagnosticStatus.OK, name=name, message='keeps up with the clock'
+    )
     if slow:
         status.level, status.message = DiagnosticStatus.WARN, 'slower than the clock'
     status.values = [KeyValue(key=key, value=value) for key, value in values.items()]

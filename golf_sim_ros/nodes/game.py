@@ -1,17 +1,31 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The game in time: inputs are applied between ticks, what happens is published and logged."""
+
 from time import perf_counter, process_time
 
 import numpy as np
 
+from . import log_lines
+from .diagnostics import Diagnostics, SLOW
+from .real_time import RealTime
 from ..physics import Rejected, Result
 from ..physics.engine.orientation import UPRIGHT
 from ..physics.live_parameters import checked_live
 from ..recording.journal import Journal
 from ..recording.json_format import state_text
-from . import log_lines
-from .diagnostics import Diagnostics, SLOW
-from .real_time import RealTime
 
 CATCH_UP = 0.25  # s of wall time that a step makes up while a ball moves
 REST_CATCH_UP = 2.0  # the same at rest, when steps are a second apart and cost little
@@ -39,10 +53,18 @@ class Game:
     """
 
     def __init__(self, world, listener, rejected_inputs, log, given, takeover):
-        self.world, self.listener, self.rejected_inputs, self.log = world, listener, rejected_inputs, log
+        self.world, self.listener, self.rejected_inputs, self.log = (
+            world,
+            listener,
+            rejected_inputs,
+            log,
+        )
         self.takeover = takeover
-        self.real_time = RealTime(1.0 / given.rate, max(1, round(given.rate / given.publish_rate)),
-                                  given.real_time_factor)
+        self.real_time = RealTime(
+            1.0 / given.rate,
+            max(1, round(given.rate / given.publish_rate)),
+            given.real_time_factor,
+        )
         self.busy = min(BUSY / given.publish_rate, LONGEST_BUSY)
         self.keeps_time = given.publish_clock
         self.journal, self.ticks = Journal(listener.journal_entry), 0
@@ -50,7 +72,8 @@ class Game:
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
-        self.numbers = {}  # of strikes under way, by those of the world, which counts only what it accepts
+        # of strikes under way, by those of the world, which counts only what it accepts
+        self.numbers = {}
         self.inputs = []
         self.live = world.live  # live parameters of effects, as last received
         self.paused = self.stood_still = False  # now, and at any time since the last diagnostics
@@ -189,8 +212,10 @@ class Game:
             self.journal.note('drop', self.ticks, ball=result.ball, position=ball.position)
         self.listener.result(result, shot)
         if result.status == 'failed':
-            self.log.error(f'shot {shot} failed, and {result.ball} is back where it was struck: '
-                           f'{result.reason}')
+            self.log.error(
+                f'shot {shot} failed, and {result.ball} is back where it was struck: '
+                f'{result.reason}'
+            )
         else:
             self.log.info(log_lines.line(result))
 
@@ -218,8 +243,10 @@ class Game:
     def notify_balls(self, all_of_them=False):
         """Publish the time, and balls that move or have just stopped."""
         moving = set(self.world.in_motion)
-        balls = {name: self.world[name]
-                 for name in (self.world.names if all_of_them else moving | self.awake)}
+        balls = {
+            name: self.world[name]
+            for name in (self.world.names if all_of_them else moving | self.awake)
+        }
         self.listener.balls(balls, self.orientations, moving)
         self.awake = moving
 
@@ -227,7 +254,9 @@ class Game:
         """Whether the markers of the play are due: `SCENE_RATE` a second, and whenever balls stop."""
         self.steps += 1
         moving = set(self.world.in_motion)
-        return self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
+        return (
+            self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
+        )
 
     def diagnose(self):
         """Publish how well simulated time keeps up with the clock."""
@@ -236,12 +265,17 @@ class Game:
         self.stood_still = self.paused
         failures = self.world.failures
         if failures > self.failures:
-            self.log.error(f'{failures} balls could not go on so far; the last: {self.world.last_failure}')
+            self.log.error(
+                f'{failures} balls could not go on so far; the last: {self.world.last_failure}'
+            )
         self.failures = failures
         if slow:
             self.log.warning(
                 f'slower than the clock: {self.diagnostics.factor:.3g} simulated seconds a second '
                 f'instead of {self.real_time.factor:g}; no tick is left out, the play is the same',
-                throttle_duration_sec=1.0)
-        self.listener.diagnostics(slow, {
-            **self.diagnostics.values(self.world, self.real_time.lost), **self.takeover.values()})
+                throttle_duration_sec=1.0,
+            )
+        self.listener.diagnostics(
+            slow,
+            {**self.diagnostics.values(self.world, self.real_time.lost), **self.takeover.values()},
+        )

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The life of a node's process: from the first line of `main` to its exit code."""
+
 import signal
 import sys
 
@@ -43,7 +57,8 @@ class Ending:
         """Handle a signal: note it, and interrupt what goes on while `at_once`."""
         self.told = True
         if self.at_once:
-            sys.unraisablehook = say_nothing  # callbacks that are interrupted would print a traceback
+            # callbacks that are interrupted would print a traceback
+            sys.unraisablehook = say_nothing
             signal.setitimer(signal.ITIMER_REAL, AGAIN)
             raise KeyboardInterrupt
 
@@ -57,8 +72,8 @@ def run(make_node, program, args=None):
     """Exit code of a process that runs the node made by `make_node` until it is told to stop.
 
     SIGINT and SIGTERM end it with 0 at any time, also while it compiles. Where `make_node` raises
-    what a user can put right (`REFUSED`), the log has one line and the code is 1. Where the arguments
-    leave nothing to run, as `--help` does, the `Program` has its answer.
+    what a user can put right (`REFUSED`), the log has one line and the code is 1. Where the
+    arguments leave nothing to run, as `--help` does, the `Program` has its answer.
     """
     ending = Ending()
     complete_environment()
@@ -87,7 +102,9 @@ def checked(make_node, args):
     """Node made by `make_node`, or None after a line in the log that says what was wrong."""
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-    except rclpy_implementation.RCLError as error:  # of what the arguments name: an enclave, a pipe
+    except (
+        rclpy_implementation.RCLError
+    ) as error:  # of what the arguments name: an enclave, a pipe
         get_logger('golf_sim_ros').fatal(explained(error))
         return None
     try:
@@ -101,9 +118,9 @@ def spin(node, ending):
     """Let `node` work until the `ending` is told, never stopping in the middle of a callback.
 
     `EventsExecutor` takes a fifth of the processor time; its `spin` without a timeout never calls
-    back in rclpy 7.1, `spin_once` does. On simulated time it may call a timer twice for one period,
-    and then skip the next: `UpdateTimers` of rclpy's timers_manager.cpp queues a timer anew at every
-    /clock that comes before its call.
+    back in rclpy 7.1, `spin_once` does. On simulated time it may call a timer twice for one
+    period, and then skip the next: `UpdateTimers` of rclpy's timers_manager.cpp queues a timer
+    anew at every /clock that comes before its call.
     """
     on_simulated_time = node.get_clock().ros_time_is_active
     executor = SingleThreadedExecutor() if on_simulated_time else EventsExecutor()

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What a `Game` reports, to whoever listens: publishers of topics, a page, a test."""
+
 from typing import Protocol
 
 import numpy as np
@@ -25,8 +39,9 @@ class Listener(Protocol):
     def path_begins(self, ball: str) -> None:
         """A ball was struck, placed or put back to the start: its path so far is over."""
 
-    def balls(self, balls: dict[str, BallState], orientations: dict[str, np.ndarray],
-              moving: set[str]) -> None:
+    def balls(
+        self, balls: dict[str, BallState], orientations: dict[str, np.ndarray], moving: set[str]
+    ) -> None:
         """The world's time has gone on: balls that move or have just stopped, and those that move."""
 
     def scene(self, wind: tuple) -> None:

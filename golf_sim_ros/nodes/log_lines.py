@@ -1,12 +1,32 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Lines of the log: one for each shot, and what is simulated."""
+
 from math import atan2, hypot, pi
 
 DEGREE = pi / 180
-# Least speed [m/s] and greatest launch angle [rad] of what a shot resembles, first that fits: between
-# the averages of the clubs on tour (driver 75 m/s at 11 deg, 5 iron 59 m/s at 12, wedge 46 m/s at 24).
-KINDS = (('driver-like shot', 65.0, 16 * DEGREE), ('iron-like shot', 48.0, 22 * DEGREE),
-         ('wedge-like shot', 20.0, pi), ('putt', 0.0, 2 * DEGREE), ('chip', 0.0, pi))
+# Least speed [m/s] and greatest launch angle [rad] of what a shot resembles, first that fits:
+# between the averages of the clubs on tour (driver 75 m/s at 11 deg, 5 iron 59 m/s at 12, wedge 46
+# m/s at 24).
+KINDS = (
+    ('driver-like shot', 65.0, 16 * DEGREE),
+    ('iron-like shot', 48.0, 22 * DEGREE),
+    ('wedge-like shot', 20.0, pi),
+    ('putt', 0.0, 2 * DEGREE),
+    ('chip', 0.0, pi),
+)
 LONG = 20.0  # m; of shorter shots a player wants to know the centimetres
 
 
@@ -41,7 +61,10 @@ def effect_lines(world):
 
 
 def with_reasons(reasons):
-    """Names with their `reasons`, a dict by name, such as ``wind (no wind); drag, magnus (no air)``."""
+    """Names with their `reasons`, a dict by name, such as ``wind (no wind).
+
+    Drag, magnus (no air)``.
+    """
     names = {}
     for name, reason in reasons.items():
         names.setdefault(reason, []).append(name)

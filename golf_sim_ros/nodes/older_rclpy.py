@@ -1,5 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Stand-ins for what the rclpy of ROS 2 Humble (3.3) lacks; a newer one's own functions are used."""
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Stand-ins for what the rclpy of ROS 2 Humble (3.3) lacks.
+
+A newer one's own functions are used.
+"""
+
 from functools import partial
 
 from rcl_interfaces.msg import ParameterEvent
@@ -8,10 +25,14 @@ from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_parameter_events
 
 try:
-    from rclpy.event_handler import (PublisherEventCallbacks, SubscriptionEventCallbacks,
-                                     UnsupportedEventTypeError)
+    from rclpy.event_handler import (
+        PublisherEventCallbacks,
+        SubscriptionEventCallbacks,
+        UnsupportedEventTypeError,
+    )
 except ImportError:
     from rclpy.qos_event import SubscriptionEventCallbacks, UnsupportedEventTypeError  # noqa: F401
+
     PublisherEventCallbacks = None
 
 PERIOD = 0.2  # s from one count of subscriptions to the next
@@ -25,8 +46,12 @@ def after_set(node, callback):
     if hasattr(node, 'add_post_set_parameters_callback'):
         node.add_post_set_parameters_callback(callback)
         return
-    node.create_subscription(ParameterEvent, '/parameter_events', partial(_on_event, node, callback),
-                             qos_profile_parameter_events)
+    node.create_subscription(
+        ParameterEvent,
+        '/parameter_events',
+        partial(_on_event, node, callback),
+        qos_profile_parameter_events,
+    )
 
 
 def _on_event(node, callback, event):
@@ -43,15 +68,19 @@ def on_match(callback):
     if PublisherEventCallbacks is None:
         return None
     return PublisherEventCallbacks(
-        matched=lambda status: callback() if status.current_count_change > 0 else None)
+        matched=lambda status: callback() if status.current_count_change > 0 else None
+    )
 
 
 def watch(node, publishers, callback):
     """Call `callback` when one of `publishers` has more subscriptions, where `on_match` gives None."""
     if PublisherEventCallbacks is None:
         counts = [0] * len(publishers)
-        node.create_timer(PERIOD, partial(_compare, publishers, counts, callback),
-                          clock=Clock(clock_type=ClockType.STEADY_TIME))
+        node.create_timer(
+            PERIOD,
+            partial(_compare, publishers, counts, callback),
+            clock=Clock(clock_type=ClockType.STEADY_TIME),
+        )
 
 
 def _compare(publishers, counts, callback):

@@ -1,9 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Values of parameters as people type them, in the type of the default; and names that are mistyped.
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
 
-`rate:=250` is an integer to ROS, `balls:=a` a string and `frame_id:=1` no string. They are converted
-before they are declared, so that types and ranges stay what `ros2 param describe` says.
+"""Values of parameters as people type them, in the type of the default.
+
+And names that are mistyped.
+
+`rate:=250` is an integer to ROS, `balls:=a` a string and `frame_id:=1` no string. They are
+converted before they are declared, so that types and ranges stay what `ros2 param describe` says.
 """
+
 from difflib import get_close_matches
 import re
 import sys
@@ -13,14 +29,22 @@ from rclpy.parameter import Parameter
 
 from .command_line import only_for_all_nodes
 
-SWITCH = {'true': True, 'yes': True, 'on': True, '1': True,
-          'false': False, 'no': False, 'off': False, '0': False}
+SWITCH = {
+    'true': True,
+    'yes': True,
+    'on': True,
+    '1': True,
+    'false': False,
+    'no': False,
+    'off': False,
+    '0': False,
+}
 KIND = {
     float: 'a number, as in 2.5',
     int: 'a whole number',
     bool: 'true or false',
-    str: "text; what YAML reads as something else is quoted, as in '\"on\"'",
-    tuple: "names, as in a or [a, b]; what YAML reads as something else is quoted, as in '[\"on\"]'",
+    str: 'text; what YAML reads as something else is quoted, as in \'"on"\'',
+    tuple: 'names, as in a or [a, b]; what YAML reads as something else is quoted, as in \'["on"]\'',
 }
 
 
@@ -50,7 +74,10 @@ def switch(value):
 
 
 def text(value):
-    """`value` as a str; ValueError where YAML may have read it as something else than was typed."""
+    """`value` as a str.
+
+    ValueError where YAML may have read it as something else than was typed.
+    """
     if isinstance(value, bool) or not isinstance(value, (int, str)):
         raise ValueError
     return str(value)
@@ -80,20 +107,24 @@ def fitted(parameter, default):
         return Parameter(parameter.name, value=AS[type(default)](parameter.value))
     except ValueError:
         given = 'without a value' if parameter.value is None else repr(parameter.value)
-        raise ValueError(f'{parameter.name} must be {KIND[type(default)]}; it is {given}') from None
+        raise ValueError(
+            f'{parameter.name} must be {KIND[type(default)]}; it is {given}'
+        ) from None
 
 
 def fit(node, defaults):
     """Convert what was given to `node` for the parameters `defaults` to their types, now and while it runs.
 
-    To be called before they are declared. Raises ValueError as `fitted` does; while the node runs, what
-    does not fit is left to rclpy, which refuses it.
+    To be called before they are declared. Raises ValueError as `fitted` does; while the node runs,
+    what does not fit is left to rclpy, which refuses it.
     """
     overrides = node._parameter_overrides  # rclpy offers them nowhere before they are declared
     for name in defaults.keys() & overrides.keys():
         overrides[name] = fitted(overrides[name], defaults[name])
     if hasattr(node, 'add_pre_set_parameters_callback'):  # without it rclpy refuses an integer
-        node.add_pre_set_parameters_callback(lambda changes: [live(node, each, defaults) for each in changes])
+        node.add_pre_set_parameters_callback(
+            lambda changes: [live(node, each, defaults) for each in changes]
+        )
 
 
 def live(node, parameter, defaults):
@@ -109,7 +140,10 @@ def live(node, parameter, defaults):
 
 
 class Unknown(ParameterNotDeclaredException):
-    """Answer of `ros2 param set` to a name that is not known; rclpy's own line does not have the name."""
+    """Answer of `ros2 param set` to a name that is not known.
+
+    Rclpy's own line does not have the name.
+    """
 
     def __init__(self, name, names):
         Exception.__init__(self, unknown(name, names))
@@ -117,7 +151,7 @@ class Unknown(ParameterNotDeclaredException):
 
 def unknown(name, names):
     """One line about a parameter that is none of `names`."""
-    nearest, = get_close_matches(name, names, n=1, cutoff=0.0)
+    (nearest,) = get_close_matches(name, names, n=1, cutoff=0.0)
     return f'parameter {name!r} is unknown and does nothing; nearest known: {nearest}'
 
 
@@ -129,8 +163,8 @@ def known(defaults):
 def warn_of_unknown(node, defaults, words=None):
     """Warn once of each parameter given to `node` that it has not declared.
 
-    What a params file says to all nodes (`/**`) may well be for another one: of that there is no warning.
-    `words` are the arguments of the process, `sys.argv[1:]` if not given.
+    What a params file says to all nodes (`/**`) may well be for another one: of that there is no
+    warning. `words` are the arguments of the process, `sys.argv[1:]` if not given.
     """
     shared = only_for_all_nodes(sys.argv[1:] if words is None else words, node.get_name())
     for name in node._parameter_overrides:

@@ -1,12 +1,26 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Parameters of `sim_node`: declared with description, type and range, and checked."""
+
 from typing import NamedTuple
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 
-from ..physics import ACCURACY
 from .command_line import Program
 from .parameter_values import fit, warn_of_unknown
+from ..physics import ACCURACY
 
 
 class Parameters(NamedTuple):
@@ -30,14 +44,14 @@ MEANING = {
     'rate': 'physics ticks a second of simulated time',
     'publish_rate': 'pose and twist messages a second while a ball moves; at most rate',
     'real_time_factor': 'simulated seconds a wall second, from 0.1; 0: as fast as it can, and time stands '
-                        'still while every ball rests; may be changed while running',
+    'still while every ball rests; may be changed while running',
     'accuracy': f'one of {", ".join(ACCURACY)}; may be changed while running',
     'effects': "effects to simulate, or ['auto']: just those that the scene calls for",
     'balls': 'names of the balls; the first one is in play',
     'frame_id': 'frame of every stamp, and the frame in which inputs are understood',
     'publish_clock': 'whether to publish simulated time on /clock, and to stamp with it',
     'engine': 'what runs the physics: python, plain Python; compiled, the compiled engine; auto, Python '
-              'until it takes too much of a core',
+    'until it takes too much of a core',
 }
 RANGE = {'rate': (10.0, 10000.0), 'publish_rate': (1.0, 1000.0), 'real_time_factor': (0.0, 100.0)}
 LIVE = ('accuracy', 'real_time_factor')
@@ -45,21 +59,33 @@ SLOWEST = 0.1  # real-time factor
 OWN_TIME = 'this node makes simulated time; to follow it itself, it must publish_clock'
 FOLLOWED = 'whether to follow /clock; only with publish_clock: this node makes simulated time'
 PROGRAM = Program(
-    'sim_node', 'Simulates golf: a Twist on `shot` strikes the ball, and `ball/pose` tells where it is.',
-    {**{name: (default, MEANING[name]) for name, default in Parameters()._asdict().items()},
-     'use_sim_time': (False, FOLLOWED)}, 'course:=links')
+    'sim_node',
+    'Simulates golf: a Twist on `shot` strikes the ball, and `ball/pose` tells where it is.',
+    {
+        **{name: (default, MEANING[name]) for name, default in Parameters()._asdict().items()},
+        'use_sim_time': (False, FOLLOWED),
+    },
+    'course:=links',
+)
 
 
 def declared(node):
-    """`Parameters` of `node` after all were declared; ValueError where they do not fit together."""
+    """`Parameters` of `node` after all were declared.
+
+    ValueError where they do not fit together.
+    """
     defaults = Parameters()._asdict()
     fit(node, defaults)
-    values = Parameters(**{name: declare(node, name, default) for name, default in defaults.items()})
+    values = Parameters(
+        **{name: declare(node, name, default) for name, default in defaults.items()}
+    )
     warn_of_unknown(node, defaults)
     if values.engine not in ENGINES:
         raise ValueError(f'engine {values.engine!r} is unknown; known: {", ".join(ENGINES)}')
     if values.publish_rate > values.rate:
-        raise ValueError(f'publish_rate {values.publish_rate:g} must be at most rate, {values.rate:g}')
+        raise ValueError(
+            f'publish_rate {values.publish_rate:g} must be at most rate, {values.rate:g}'
+        )
     if node.get_parameter('use_sim_time').value and not values.publish_clock:
         raise ValueError(f'use_sim_time must be false: {OWN_TIME}')
     if 0.0 < values.real_time_factor < SLOWEST:
@@ -74,12 +100,18 @@ def too_slow(factor):
 
 def declare(node, name, default):
     """Declare the parameter `name` of `node`, and give its value."""
-    ranges = [FloatingPointRange(from_value=RANGE[name][0], to_value=RANGE[name][1])] if name in RANGE else []
+    ranges = (
+        [FloatingPointRange(from_value=RANGE[name][0], to_value=RANGE[name][1])]
+        if name in RANGE
+        else []
+    )
     descriptor = ParameterDescriptor(
-        description=MEANING[name], read_only=name not in LIVE, floating_point_range=ranges)
+        description=MEANING[name], read_only=name not in LIVE, floating_point_range=ranges
+    )
     value = list(default) if isinstance(default, tuple) else default
     value = node.declare_parameter(name, value, descriptor).value
-    return tuple(value or ()) if isinstance(default, tuple) else value  # ROS has no type for [], only None
+    # ROS has no type for [], only None
+    return tuple(value or ()) if isinstance(default, tuple) else value
 
 
 def checked(publishes_clock, parameters):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """All that `sim_node` publishes, with the QoS of each topic and why."""
+
 from time import monotonic, time_ns
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -9,19 +23,21 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
-from ..recording.json_format import collision_text, rejection_text, result_text, text
 from . import conversions
 from .diagnostics import diagnostic
 from .markers.course_markers import course_markers
 from .markers.play_markers import Scene
 from .older_rclpy import on_match, watch
+from ..recording.json_format import collision_text, rejection_text, result_text, text
 
 STREAM = QoSProfile(depth=10)  # reliable, volatile: only what is new counts
 POINTS = QoSProfile(depth=100)  # a bouncing ball makes many at once
-# Nothing of it may be missed: who subscribes late or loses the link for a while gets the last ones.
+# Nothing of it may be missed: who subscribes late or loses the link for a while gets the last
+# ones.
 EVENTS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 CLOCK_PERIOD = 0.01  # s of wall time at least
-BEAT = QoSProfile(depth=1)  # only the last one counts; reliable, so that it matches whatever is asked for
+# only the last one counts; reliable, so that it matches whatever is asked for
+BEAT = QoSProfile(depth=1)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -42,7 +58,9 @@ class Publishers:
     def __init__(self, node, world, given, on_viewer, on_follower):
         self.node, self.world, self.frame = node, world, given.frame_id
         self.began = 0 if given.publish_clock else node.get_clock().now().nanoseconds
-        self.clock = node.create_publisher(Clock, '/clock', STREAM) if given.publish_clock else None
+        self.clock = (
+            node.create_publisher(Clock, '/clock', STREAM) if given.publish_clock else None
+        )
         self.next_clock = monotonic()
         self.markers = Scene(world)
         self.config, self.entries_since = '', 0
@@ -51,8 +69,12 @@ class Publishers:
         make = node.create_publisher
         self.of_collisions = make(String, 'collisions', EVENTS)
         self.of_results = make(String, 'shot/result', EVENTS)
-        self.of_journal = make(String, 'journal', EVENTS, event_callbacks=on_match(self.repeat_config))
-        self.of_course = make(MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer))
+        self.of_journal = make(
+            String, 'journal', EVENTS, event_callbacks=on_match(self.repeat_config)
+        )
+        self.of_course = make(
+            MarkerArray, 'course/markers', LATCHED, event_callbacks=on_match(on_viewer)
+        )
         watch(node, [self.of_journal], self.repeat_config)
         watch(node, [self.of_course], on_viewer)
         self.of_play = make(MarkerArray, 'play/markers', STREAM)
@@ -62,10 +84,14 @@ class Publishers:
     def open_balls(self, matched):
         """Create the publishers of each ball, by name."""
         make, names = self.node.create_publisher, self.world.names
-        self.poses = {name: make(PoseStamped, f'{name}/pose', STREAM, event_callbacks=matched)
-                      for name in names}
-        self.twists = {name: make(TwistStamped, f'{name}/twist', STREAM, event_callbacks=matched)
-                       for name in names}
+        self.poses = {
+            name: make(PoseStamped, f'{name}/pose', STREAM, event_callbacks=matched)
+            for name in names
+        }
+        self.twists = {
+            name: make(TwistStamped, f'{name}/twist', STREAM, event_callbacks=matched)
+            for name in names
+        }
         self.contacts = {name: make(PointStamped, f'{name}/contact', POINTS) for name in names}
 
     def head(self, time):
@@ -101,7 +127,9 @@ class Publishers:
         both = [collision.ball] + [collision.with_] * (collision.kind == 'ball')
         for name in both:
             if heard(self.contacts[name]):
-                self.contacts[name].publish(conversions.contact(self.head(collision.time), collision))
+                self.contacts[name].publish(
+                    conversions.contact(self.head(collision.time), collision)
+                )
         self.markers.contacts.append(collision.position)
 
     def result(self, result, shot):
@@ -127,12 +155,15 @@ class Publishers:
     def heartbeat(self, shots, paused):
         """Publish the heartbeat: number of the session, strikes received, whether time is paused."""
         self.of_heartbeat.publish(
-            String(data=text({'session': self.session, 'shots': shots, 'paused': paused})))
+            String(data=text({'session': self.session, 'shots': shots, 'paused': paused}))
+        )
 
     def scene(self, wind):
         """Publish markers of the play."""
         if heard(self.of_play):
-            self.of_play.publish(self.markers.markers(self.head(self.world.time), self.world, wind))
+            self.of_play.publish(
+                self.markers.markers(self.head(self.world.time), self.world, wind)
+            )
 
     def course(self):
         """Publish markers of the course."""

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """How many ticks of simulated time are due by the wall clock."""
+
 from time import monotonic
 
 
@@ -34,7 +48,8 @@ class RealTime:
     def portions(self, limit, busy):
         """Ticks to do now, in portions after each of which it is time to publish.
 
-        At most `limit` [s] of wall time count; where time `hurries`, ticks go on for `busy` [s] of it.
+        At most `limit` [s] of wall time count; where time `hurries`, ticks go on for `busy` [s] of
+        it.
         """
         if self.hurries:
             until = monotonic() + busy

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The node that plays: subscribes to shots and wind, publishes the play."""
+
 from functools import partial
 import sys
 from time import perf_counter
@@ -10,17 +24,17 @@ from rclpy.node import Node
 from rclpy.qos import qos_policy_name_from_kind, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import SetBool, Trigger
 
-from ..course import load_course
-from ..physics import World
 from .conversions import triple
 from .game import Game
 from .lifecycle import run
 from .log_lines import effect_lines, with_reasons
-from .older_rclpy import SubscriptionEventCallbacks, UnsupportedEventTypeError, after_set
-from .parameters import PROGRAM, checked, declared
+from .older_rclpy import after_set, SubscriptionEventCallbacks, UnsupportedEventTypeError
+from .parameters import checked, declared, PROGRAM
 from .publishers import Publishers
 from .rejected_inputs import RejectedInputs
-from .takeover import Takeover, load_compiled
+from .takeover import load_compiled, Takeover
+from ..course import load_course
+from ..physics import World
 
 COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
 # Asks for the least, so it matches every publisher; only the newest wind counts.
@@ -46,15 +60,20 @@ class SimNode(Node):
     """
 
     def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
-        super().__init__('golf_sim', context=context, namespace=namespace,
-                         parameter_overrides=parameter_overrides)
+        super().__init__(
+            'golf_sim',
+            context=context,
+            namespace=namespace,
+            parameter_overrides=parameter_overrides,
+        )
         given = declared(self)
         self.world = self.new_world(given)
         self.frame, self.rejected_inputs = given.frame_id, RejectedInputs(self.get_logger())
         self.topics = Publishers(self, self.world, given, self.on_viewer, self.on_follower)
         takeover = Takeover(self.world, given.engine, self.get_logger())
-        self.game = Game(self.world, self.topics, self.rejected_inputs, self.get_logger(), given,
-                         takeover)
+        self.game = Game(
+            self.world, self.topics, self.rejected_inputs, self.get_logger(), given, takeover
+        )
         self.game.journal.config(self.world, given._asdict(), self.topics.began)
         self.subscribe(given)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -66,10 +85,14 @@ class SimNode(Node):
     def new_world(self, given):
         """`World` as `given`, ready: no shot shall wait for a compiler."""
         began = perf_counter()
-        world = World(load_course(given.course), given.balls, given.effects, given.accuracy, engine='python')
+        world = World(
+            load_course(given.course), given.balls, given.effects, given.accuracy, engine='python'
+        )
         if given.engine == 'compiled':
             load_compiled(world, self.get_logger())
-        self.get_logger().info(f'physics loaded in {perf_counter() - began:.1f} s, engine {world.engine}')
+        self.get_logger().info(
+            f'physics loaded in {perf_counter() - began:.1f} s, engine {world.engine}'
+        )
         return world
 
     def subscribe(self, given):
@@ -78,7 +101,9 @@ class SimNode(Node):
         self.strikes = self.hear_strikes('shot', first)
         for name in self.world.names:
             self.hear_strikes(f'{name}/shot', name)
-            self.create_subscription(PointStamped, f'{name}/place', partial(self.on_place, name), COMMANDS)
+            self.create_subscription(
+                PointStamped, f'{name}/place', partial(self.on_place, name), COMMANDS
+            )
         self.create_subscription(Vector3Stamped, 'wind', self.on_wind, NEWEST)
         self.create_service(Trigger, '~/reset', self.on_reset)
         self.create_service(SetBool, '~/pause', self.on_pause)
@@ -86,12 +111,20 @@ class SimNode(Node):
         after_set(self, self.on_parameters)
 
     def hear_strikes(self, topic, name):
-        """Subscribe to strikes of a ball; those that do not arrive are reported, where DDS knows of them."""
+        """Subscribe to strikes of a ball.
+
+        Those that do not arrive are reported, where DDS knows of them.
+        """
         on_strike = partial(self.on_shot, name)
-        events = {'incompatible_qos': partial(self.on_unheard, topic), 'message_lost': self.on_lost}
+        events = {
+            'incompatible_qos': partial(self.on_unheard, topic),
+            'message_lost': self.on_lost,
+        }
         try:
             callbacks = SubscriptionEventCallbacks(**events)
-            return self.create_subscription(Twist, topic, on_strike, COMMANDS, event_callbacks=callbacks)
+            return self.create_subscription(
+                Twist, topic, on_strike, COMMANDS, event_callbacks=callbacks
+            )
         except UnsupportedEventTypeError:  # a middleware that cannot report it
             return self.create_subscription(Twist, topic, on_strike, COMMANDS)
 
@@ -99,8 +132,10 @@ class SimNode(Node):
         """Warn of a publisher of strikes whose QoS does not match."""
         if event.total_count_change > 0:
             policy = qos_policy_name_from_kind(event.last_policy_kind)
-            self.get_logger().warning(f'a publisher of {topic} is not heard: its {policy} does not match; '
-                                      'strikes must be published reliable')
+            self.get_logger().warning(
+                f'a publisher of {topic} is not heard: its {policy} does not match; '
+                'strikes must be published reliable'
+            )
 
     def on_lost(self, event):
         """Count strikes that arrived and were dropped before a callback got them."""
@@ -115,13 +150,19 @@ class SimNode(Node):
         for line in effect_lines(world):
             log.info(line)
         if world.effects_needless:
-            log.warning(f'asked for, but nothing here calls for it: {with_reasons(world.effects_needless)}')
-        log.info('ready; to strike the ball, paste: ros2 topic pub --once '
-                 f"{self.strikes.topic_name} geometry_msgs/msg/Twist '{EXAMPLE}'")
+            log.warning(
+                f'asked for, but nothing here calls for it: {with_reasons(world.effects_needless)}'
+            )
+        log.info(
+            'ready; to strike the ball, paste: ros2 topic pub --once '
+            f"{self.strikes.topic_name} geometry_msgs/msg/Twist '{EXAMPLE}'"
+        )
 
     def on_shot(self, name, message):
         """Store a strike for the next step."""
-        self.store(partial(self.game.strike, name, triple(message.linear), triple(message.angular)))
+        self.store(
+            partial(self.game.strike, name, triple(message.linear), triple(message.angular))
+        )
 
     def on_place(self, name, message):
         """Store a place for the next step."""
@@ -140,7 +181,10 @@ class SimNode(Node):
         self.game.diagnostics.note_wind()
 
     def in_frame(self, kind, message):
-        """Whether `message` is in the course's frame or has an empty one; if not, it is rejected."""
+        """Whether `message` is in the course's frame or has an empty one.
+
+        If not, it is rejected.
+        """
         frame = message.header.frame_id
         if frame in ('', self.frame):
             return True
@@ -189,7 +233,10 @@ class SimNode(Node):
         self.wake()
 
     def wake(self):
-        """Start the timer. One that runs is left alone, or a flood of messages would hold it up."""
+        """Start the timer.
+
+        One that runs is left alone, or a flood of messages would hold it up.
+        """
         if self.timer.is_canceled():
             self.timer.reset()
 

@@ -1,7 +1,21 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """When the compiled engine takes over from plain Python: where the play calls for it, between shots."""
+
 from ..physics import EngineUnavailable
-from ..physics.jit.build import BUILD_FAILED, READY, missing
+from ..physics.jit.build import BUILD_FAILED, missing, READY
 
 A_THIRD = 1.0 / 3.0  # of a core, for a play: above that a compiler is worth its while
 LEAST = 2.0  # s of motion before the share means anything
@@ -17,7 +31,8 @@ class Takeover:
     world : World
         Whose engine is 'python' or 'compiled'.
     wanted : str
-        'auto': plain Python until it takes more than a third of a core while balls move; else as it is.
+        'auto': plain Python until it takes more than a third of a core while balls move; else as
+        it is.
     log : rclpy.impl.rcutils_logger.RcutilsLogger
         Gets a line for each change of engine.
     """
@@ -54,7 +69,10 @@ class Takeover:
             self.call_for_compiler()
 
     def call_for_compiler(self):
-        """Have the compiled engine built meanwhile; where there can be none, log what to install."""
+        """Have the compiled engine built meanwhile.
+
+        Where there can be none, log what to install.
+        """
         if missing():
             self.stay(missing())
             return
@@ -92,7 +110,9 @@ def load_compiled(world, log):
     """
     build = world.build(urgent=True)
     while not build.wait(WAITS_TO_TELL):
-        log.info(f'waiting for the physics to be compiled, once a machine: {build.progress:.0%} done')
+        log.info(
+            f'waiting for the physics to be compiled, once a machine: {build.progress:.0%} done'
+        )
     if build.state == BUILD_FAILED:
         raise ValueError(f"engine 'compiled' cannot be had: {build.reason}")
     try:

@@ -1,22 +1,37 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The wind generator: publishes gusts, a new one every ten seconds, on `wind`."""
+
 import sys
 
-import numpy as np
 from geometry_msgs.msg import Vector3Stamped
+import numpy as np
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
-from ..wind.gusts import GustSettings, Gusts
 from .command_line import Program
 from .lifecycle import run
 from .older_rclpy import after_set
 from .parameter_values import fit, warn_of_unknown
+from ..wind.gusts import Gusts, GustSettings
 
 # A late subscription gets the last wind at once; only the newest one counts.
 WIND_QOS = QoSProfile(
-    depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    depth=1, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL
+)
 
 DEFAULTS = {**GustSettings()._asdict(), 'seed': -1, 'publish_rate': 10.0, 'frame_id': 'course'}
 MEANING = {
@@ -32,15 +47,26 @@ MEANING = {
     'frame_id': 'frame in which the wind is given',
 }
 RANGES = {
-    'speed': (0.0, 60.0), 'speed_spread': (0.0, 40.0), 'direction': (-6.2832, 6.2832),
-    'direction_spread': (0.0, 6.2832), 'interval': (0.1, 86400.0), 'ramp': (0.0, 3600.0),
-    'turbulence': (0.0, 1.0), 'seed': (-1, 2**63 - 1), 'publish_rate': (0.1, 1000.0),
+    'speed': (0.0, 60.0),
+    'speed_spread': (0.0, 40.0),
+    'direction': (-6.2832, 6.2832),
+    'direction_spread': (0.0, 6.2832),
+    'interval': (0.1, 86400.0),
+    'ramp': (0.0, 3600.0),
+    'turbulence': (0.0, 1.0),
+    'seed': (-1, 2**63 - 1),
+    'publish_rate': (0.1, 1000.0),
 }
 READ_ONLY = ('seed', 'publish_rate')
 PROGRAM = Program(
-    'wind_node', 'Generates wind and publishes it on `wind`: a new gust every `interval`, eased in.',
-    {**{name: (default, MEANING[name]) for name, default in DEFAULTS.items()},
-     'use_sim_time': (False, 'whether to follow /clock')}, 'speed:=8')
+    'wind_node',
+    'Generates wind and publishes it on `wind`: a new gust every `interval`, eased in.',
+    {
+        **{name: (default, MEANING[name]) for name, default in DEFAULTS.items()},
+        'use_sim_time': (False, 'whether to follow /clock'),
+    },
+    'speed:=8',
+)
 
 
 class WindNode(Node):
@@ -54,8 +80,12 @@ class WindNode(Node):
     """
 
     def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
-        super().__init__('wind_generator', context=context, namespace=namespace,
-                         parameter_overrides=parameter_overrides)
+        super().__init__(
+            'wind_generator',
+            context=context,
+            namespace=namespace,
+            parameter_overrides=parameter_overrides,
+        )
         fit(self, DEFAULTS)
         given = {name: self._declare(name) for name in DEFAULTS}
         warn_of_unknown(self, DEFAULTS)
@@ -70,7 +100,9 @@ class WindNode(Node):
         default, (least, greatest) = DEFAULTS[name], RANGES.get(name, (None, None))
         descriptor = ParameterDescriptor(description=MEANING[name], read_only=name in READ_ONLY)
         if isinstance(default, float):
-            descriptor.floating_point_range = [FloatingPointRange(from_value=least, to_value=greatest)]
+            descriptor.floating_point_range = [
+                FloatingPointRange(from_value=least, to_value=greatest)
+            ]
         elif isinstance(default, int):
             descriptor.integer_range = [IntegerRange(from_value=least, to_value=greatest)]
         return self.declare_parameter(name, default, descriptor).value
@@ -82,7 +114,9 @@ class WindNode(Node):
         return seed
 
     def _settings(self):
-        return GustSettings(**{name: self.get_parameter(name).value for name in GustSettings._fields})
+        return GustSettings(
+            **{name: self.get_parameter(name).value for name in GustSettings._fields}
+        )
 
     def _time(self, now):
         """Time of the gusts [s]: simulated time itself, or wall time since the start.

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Batch of shots, each from the tee: the choice of the engine, and their results."""
+
 from typing import NamedTuple
 
 import numpy as np
@@ -12,11 +26,12 @@ from .response.contact_set import clear_set
 from .result import summary
 from .scene.course_record import Course
 from .state.ball import ENDED
-from .trajectory.shot_record import NOT_FINITE, fail, copy_result, begin_shot
+from .trajectory.shot_record import begin_shot, copy_result, fail, NOT_FINITE
 from .world import World
 
 PART = 5000  # shots between two updates of the progress
-FEW_SHOTS, MANY_SHOTS = 20, 200  # plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute
+# plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute
+FEW_SHOTS, MANY_SHOTS = 20, 200
 SHORT_WAIT = 5.0  # s: loading is over by then
 ANY_SHOT = np.array([[1.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
 
@@ -43,7 +58,9 @@ def batch_engine(batch, shots):
         LOG.warning('compiling the physics for %d shots, up to a minute, once a machine', shots)
         build.wait()
     if build.state != READY:
-        LOG.warning('%d shots in plain Python, which takes some 100 times as long: %s', shots, build.reason)
+        LOG.warning(
+            '%d shots in plain Python, which takes some 100 times as long: %s', shots, build.reason
+        )
         return 'python'
     return 'compiled'
 
@@ -51,22 +68,32 @@ def batch_engine(batch, shots):
 def world_of(batch):
     """`World` of a batch. The strongest gust decides whether wind is simulated."""
     wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
-    return World(batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=wind, engine='python')
+    return World(
+        batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=wind, engine='python'
+    )
 
 
 def played(batch, strikes, progress=None):
-    """Results of the `strikes` of a batch; effects stay off, so no dormant record is compiled in."""
+    """Results of the `strikes` of a batch.
+
+    Effects stay off, so no dormant record is compiled in.
+    """
     world = world_of(batch)
     play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
     scene = world._model, world._balls, batch.gusts, world._workspace, world._log
-    found = [ends(play, scene, part)
-             for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)]
+    found = [
+        ends(play, scene, part)
+        for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)
+    ]
     return summary(np.concatenate(found), batch.course.hole, world._labels.materials)
 
 
 def ends(play, scene, strikes):
-    """Ends of `strikes`, an `ENDED` array. A shot for which plain Python raises an arithmetic error fails."""
+    """Ends of `strikes`, an `ENDED` array.
+
+    A shot for which plain Python raises an arithmetic error fails.
+    """
     model, balls, gusts, work, log = scene
     try:
         with np.errstate(all='ignore'):

@@ -1,8 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Live parameters: what of an effect may change while balls move, by the effect's name.
 
-A `World` hands them to `Scene` as fields of these names; its state, journals and replays carry them all.
+A `World` hands them to `Scene` as fields of these names; its state, journals and replays carry
+them all.
 """
+
 from math import isfinite
 from typing import Callable, NamedTuple
 
@@ -20,7 +35,10 @@ def checked_wind(wind):
 
 
 class Live(NamedTuple):
-    """A live parameter: what makes a tuple of floats of a value, or raises ValueError; and its default."""
+    """A live parameter: what makes a tuple of floats of a value, or raises ValueError.
+
+    And its default.
+    """
 
     check: Callable
     default: tuple
@@ -30,7 +48,12 @@ LIVE = {'wind': Live(checked_wind, (0.0, 0.0, 0.0))}
 
 
 def checked_live(effect, value):
-    """Tuple of floats of a `value` for that `effect`; ValueError where there is none to set, or not this."""
+    """Tuple of floats of a `value` for that `effect`.
+
+    ValueError where there is none to set, or not this.
+    """
     if effect not in LIVE:
-        raise ValueError(f'effect {effect!r} has nothing that can be set; those that do: {", ".join(LIVE)}')
+        raise ValueError(
+            f'effect {effect!r} has nothing that can be set; those that do: {", ".join(LIVE)}'
+        )
     return LIVE[effect].check(value)

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Placement: where balls are teed, put down and dropped, and where they can't be."""
+
 from math import atan2, cos, hypot, inf, isfinite, pi, sin
 from typing import Callable, NamedTuple
 
@@ -38,7 +52,10 @@ class Site(NamedTuple):
 
 
 def checked_start(position, velocity, spin):
-    """Tuples of floats, each None as zeros; `NoPlace` where one is not finite or it is too far away."""
+    """Tuples of floats, each None as zeros.
+
+    `NoPlace` where one is not finite or it is too far away.
+    """
     position = tuple(map(float, position))
     velocity = ZERO if velocity is None else tuple(map(float, velocity))
     spin = ZERO if spin is None else tuple(map(float, spin))
@@ -60,12 +77,17 @@ def unfit(tee, names, number, reason):
     """Reason why the ball of that number can't be teed up, alone or beside others."""
     if len(names) == 1:
         return f'tee {list(tee)} must be where a ball can lie: {reason}'
-    return (f'balls {", ".join(names)} do not fit beside each other at the tee {list(tee)}: '
-            f'{names[number]}: {reason}')
+    return (
+        f'balls {", ".join(names)} do not fit beside each other at the tee {list(tee)}: '
+        f'{names[number]}: {reason}'
+    )
 
 
 def placed(site, balls, number, position):
-    """Record of the ball of that number, put down at x, y or x, y, z; `NoPlace` where it is not free."""
+    """Record of the ball of that number, put down at x, y or x, y, z.
+
+    `NoPlace` where it is not free.
+    """
     ball = balls[number].copy()
     put_ball_down(site, ball, position)
     if not is_free(site, balls, number, three(ball['position'])):
@@ -91,7 +113,10 @@ def put_ball_down(site, ball, position):
 
 
 def beside_flagstick(site, x, y):
-    """x, y in the hole, moved to where a ball drops in beside the flagstick; any other as they are."""
+    """x, y in the hole, moved to where a ball drops in beside the flagstick.
+
+    Any other as they are.
+    """
     ground, radius, course = site.model.land.ground, site.model.land.ball.radius, site.course
     away = hypot(x - course.hole[0], y - course.hole[1]) if course.hole else inf
     room = FLAGSTICK_RADIUS + radius + surfaces.SAME_HEIGHT
@@ -102,12 +127,18 @@ def beside_flagstick(site, x, y):
 
 
 def lowered(put_down, model, ball, place):
-    """Position of a `ball` record that is lowered onto the ground of `model` at x, y. Writes the ball."""
+    """Position of a `ball` record that is lowered onto the ground of `model` at x, y.
+
+    Writes the ball.
+    """
     x, y = place
     ground, radius = model.land.ground, model.land.ball.radius
-    for room in (3 * radius, 30 * radius, 300 * radius):  # over a steep plane a ball touches higher up
+    # over a steep plane a ball touches higher up
+    for room in (3 * radius, 30 * radius, 300 * radius):
         top = max(surfaces.look_down(ground, x, y)[0], ground.highest) + room
-        touches, inside, _ = put_down(model, ball, (x, y, top), min(top - ground.lowest + room, FALL))
+        touches, inside, _ = put_down(
+            model, ball, (x, y, top), min(top - ground.lowest + room, FALL)
+        )
         if touches and inside <= surfaces.SAME_HEIGHT:
             return three(ball['position'])
     raise NoPlace(f'no ground at x {x:g}, y {y:g}')
@@ -142,17 +173,23 @@ def lay(site, balls, number, ball, now):
 def wake_leaning(site, balls, number, now):
     """Wake the balls that sleep on a ball which is taken away."""
     apart = np.linalg.norm(balls['position'] - balls['position'][number], axis=1)
-    leaning = (balls['phase'] == REST) & (balls['sleeps_on_ball'] != 0) & (
-        apart <= 2.0 * (site.model.land.ball.radius + RESTING_GAP))
+    leaning = (
+        (balls['phase'] == REST)
+        & (balls['sleeps_on_ball'] != 0)
+        & (apart <= 2.0 * (site.model.land.ball.radius + RESTING_GAP))
+    )
     leaning[number] = False
     balls['end'][leaning], balls['ending'][leaning] = now, LAUNCH
     balls['moved_by_ball'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
 
 
 def drop(site, balls, number, peg, now):
-    """Drop a lost ball where it was struck, or beside a ball that lies there by `now`; write `balls`.
+    """Drop a lost ball where it was struck, or beside a ball that lies there by `now`.
 
-    What holds it there: the `peg` if that is where it was teed; or nothing lets it go again, if it failed.
+    Write `balls`.
+
+    What holds it there: the `peg` if that is where it was teed; or nothing lets it go again, if it
+    failed.
     """
     ball = balls[number]
     is_held = ball['phase'] == FAILED or three(ball['struck_at']) == peg

@@ -1,8 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Reporting: the engine's log as collisions and results, with names for its numbers."""
+
 from typing import NamedTuple, Optional
 
-from .result import COLLISION_KINDS, Collision, failure, result
+from .result import Collision, COLLISION_KINDS, failure, result
 from .state.ball import FAILED, OUT, WATER
 from .state.events import BALL_HIT, LOST, SHOT_ENDS, WATER_HIT, WENT_OUT
 from .state.serialize import plain_rows
@@ -28,12 +42,14 @@ class Report(NamedTuple):
 
 
 def report(log, balls, labels, start):
-    """`Report` of the logged events, which empties the log; a failed shot no longer counts as a stroke.
+    """`Report` of the logged events, which empties the log.
+
+    A failed shot no longer counts as a stroke.
 
     `start` is the world's time at the zero of the engine's clock.
     """
     events, lost, failures = [], [], []
-    for time, number, kind, other, sort, *vectors in plain_rows(log.events[:log.count[0]]):
+    for time, number, kind, other, sort, *vectors in plain_rows(log.events[: log.count[0]]):
         ball, name = balls[number], labels.balls[number]
         if kind == SHOT_ENDS:
             events.append(result(ball, name, start + time, labels.hole, labels.materials))
@@ -62,5 +78,7 @@ def aborted(balls, labels, clock, time):
     """`Result` of each shot under way, which ends now: at `clock` for the engine, at the world's `time`."""
     under_way = [number for number, ball in enumerate(balls) if ball['shot_active']]
     balls['ended'][under_way] = clock
-    return [result(balls[number], labels.balls[number], time, labels.hole, labels.materials)
-            for number in under_way]
+    return [
+        result(balls[number], labels.balls[number], time, labels.hole, labels.materials)
+        for number in under_way
+    ]

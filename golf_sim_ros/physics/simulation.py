@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Simulation of shots from strike to rest: one with its path, or many with their results."""
+
 from concurrent.futures import BrokenExecutor, CancelledError
 from functools import partial
 from typing import NamedTuple
@@ -11,13 +25,16 @@ from .engine.engines import checked_engine
 from .geometry import surfaces
 from .live_parameters import checked_wind
 from .mechanics.vector import ZERO
-from .result import Result, objection, suspects
+from .result import objection, Result, suspects
 from .scene import kernel_model
 from .world import World
 
 
 class Play(NamedTuple):
-    """Shot with its path: `times` (n,) [s], the others (n, 3) in SI units; the last row is the end."""
+    """Shot with its path: `times` (n,) [s], the others (n, 3) in SI units.
+
+    The last row is the end.
+    """
 
     result: Result
     collisions: tuple
@@ -27,7 +44,9 @@ class Play(NamedTuple):
     spins: np.ndarray
 
 
-def simulate(course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=100.0, engine='auto'):
+def simulate(
+    course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=100.0, engine='auto'
+):
     """Play one shot from the tee to its end.
 
     Parameters
@@ -81,12 +100,17 @@ def _blown(world, until, gusts):
 
 
 def checked_gusts(wind):
-    """Table of gusts, rows of time, x, y, z, from `wind`, three numbers or such a table; else ValueError."""
+    """Table of gusts, rows of time, x, y, z, from `wind`, three numbers or such a table.
+
+    Else ValueError.
+    """
     table = np.ascontiguousarray(wind, float)
     if table.shape == (3,):
         table = np.array([[0.0, *table]])
     if table.ndim != 2 or table.shape[1] != 4 or not len(table):
-        raise ValueError(f'wind has the shape {table.shape}: three numbers, or rows of time, x, y, z')
+        raise ValueError(
+            f'wind has the shape {table.shape}: three numbers, or rows of time, x, y, z'
+        )
     if table[0, 0] != 0.0 or not (np.diff(table[:, 0]) > 0.0).all():
         raise ValueError('the times of the wind must begin with 0 and rise')
     for row in table:
@@ -94,8 +118,18 @@ def checked_gusts(wind):
     return table
 
 
-def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy='standard',
-                  executor=None, chunks=16, progress=None, engine='auto'):
+def simulate_many(
+    course,
+    velocities,
+    spins,
+    wind=ZERO,
+    effects='auto',
+    accuracy='standard',
+    executor=None,
+    chunks=16,
+    progress=None,
+    engine='auto',
+):
     """Play many shots, each from the tee.
 
     Parameters
@@ -105,14 +139,15 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
     wind : (float, float, float), or array_like (m, 4)
         See `simulate`.
     executor : concurrent.futures.Executor, optional
-        Plays `chunks` parts of the shots at once: threads, processes, or other machines. Kernels let
-        other threads run, so threads do as well as processes, and share what is compiled.
+        Plays `chunks` parts of the shots at once: threads, processes, or other machines. Kernels
+        let other threads run, so threads do as well as processes, and share what is compiled.
     progress : callable, optional
         ``progress(parts, total=n)`` gives the parts back one by one and shows how far they are, as
-        `tqdm.tqdm` does. Else there is such a bar on a terminal, where tqdm is installed and it takes long.
+        `tqdm.tqdm` does. Else there is such a bar on a terminal, where tqdm is installed and it
+        takes long.
     engine : str
-        'python', 'compiled', or 'auto': compiled where there are so many shots that it is worth it; the log
-        says so before this process waits for a compiler.
+        'python', 'compiled', or 'auto': compiled where there are so many shots that it is worth
+        it; the log says so before this process waits for a compiler.
 
     Returns
     -------
@@ -140,15 +175,19 @@ def simulate_many(course, velocities, spins, wind=ZERO, effects='auto', accuracy
         done = executor.map(partial(played, batch), parts)
         return np.concatenate(list(progress(done, total=len(parts))))
     except (BrokenExecutor, CancelledError) as error:
-        raise RuntimeError(f'a worker of {type(executor).__name__} ended before its shots were played: '
-                           f'{" ".join(str(error).split())}') from error
+        raise RuntimeError(
+            f'a worker of {type(executor).__name__} ended before its shots were played: '
+            f'{" ".join(str(error).split())}'
+        ) from error
 
 
 def checked_strikes(velocities, spins):
     """Velocities and spins side by side, (n, 6); ValueError where a shot can't be played."""
     velocities, spins = np.asarray(velocities, float), np.asarray(spins, float)
     if velocities.ndim != 2 or velocities.shape[1] != 3 or spins.shape != velocities.shape:
-        raise ValueError(f'velocities {velocities.shape} and spins {spins.shape} must both be (n, 3)')
+        raise ValueError(
+            f'velocities {velocities.shape} and spins {spins.shape} must both be (n, 3)'
+        )
     for i in np.flatnonzero(suspects(velocities, spins)):
         reason = objection(velocities[i], spins[i])
         if reason:
@@ -162,7 +201,10 @@ def check_hole(course):
 
 
 def ground_height(course, x, y):
-    """Height [m] and name of the material of the highest ground at `x`, `y`; None where there is none."""
+    """Height [m] and name of the material of the highest ground at `x`, `y`.
+
+    None where there is none.
+    """
     z, part, number = surfaces.look_down(kernel_model.bare_ground(course), x, y)
     if part < 0:
         return None

@@ -1,35 +1,65 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """World: a course with balls on it, in time."""
+
 from functools import partial
-import re
 from math import inf
+import re
 from typing import NamedTuple
 
 import numpy as np
 
 from . import placement, reporting
-from .collision.workspace import TREE_AGE, INVOLVED, new_workspace
-from .effects import Scene, choose
-from .engine.engines import PYTHON, Program, checked_engine, compiled_engine
+from .collision.workspace import INVOLVED, new_workspace, TREE_AGE
+from .effects import choose, Scene
+from .engine.engines import checked_engine, compiled_engine, Program, PYTHON
 from .engine.event_loop import LOG_FULL, STAGES
 from .jit.build import Part
-from .live_parameters import LIVE, checked_live
+from .live_parameters import checked_live, LIVE
 from .mechanics.vector import ZERO
 from .placement import NoPlace
 from .result import objection, three
 from .scene import kernel_model as model_
 from .scene.presets import preset
-from .state.ball import (BALL, FLIGHT, HOLED, LAUNCH, NO_PART, OUT, Phase, REST, ROLL, SLIDE, STEP_END,
-                         WATER, moves)
+from .state.ball import (
+    BALL,
+    FLIGHT,
+    HOLED,
+    LAUNCH,
+    moves,
+    NO_PART,
+    OUT,
+    Phase,
+    REST,
+    ROLL,
+    SLIDE,
+    STEP_END,
+    WATER,
+)
 from .state.events import new_log
 from .state.serialize import plain, restored
-from .trajectory.shot_record import NOT_FINITE, fail, begin_shot
+from .trajectory.shot_record import begin_shot, fail, NOT_FINITE
 
 RESERVED = {'shot', *LIVE, 'course', 'play', 'collisions', 'journal'}
 PHASES = tuple(Phase)
 PLACE_ANEW = ': place it anew, or reset'
-GONE_FOR = {HOLED: 'holed' + PLACE_ANEW, OUT: 'out of bounds' + PLACE_ANEW,
-            WATER: 'in the water' + PLACE_ANEW}
+GONE_FOR = {
+    HOLED: 'holed' + PLACE_ANEW,
+    OUT: 'out of bounds' + PLACE_ANEW,
+    WATER: 'in the water' + PLACE_ANEW,
+}
 
 
 class Rejected(ValueError):
@@ -37,7 +67,10 @@ class Rejected(ValueError):
 
 
 class BallState(NamedTuple):
-    """State of a ball at the world's time: SI units, course frame; `lie` is the material under it."""
+    """State of a ball at the world's time: SI units, course frame.
+
+    `lie` is the material under it.
+    """
 
     position: tuple
     velocity: tuple
@@ -61,7 +94,8 @@ class World:
     wind : (float, float, float)
         Velocity of the air 10 m above the ground [m/s].
     engine : str
-        'python', 'compiled', or 'auto': plain Python, until it has taken so long that compiling is worth it.
+        'python', 'compiled', or 'auto': plain Python, until it has taken so long that compiling is
+        worth it.
 
     Raises
     ------
@@ -71,8 +105,15 @@ class World:
         There is no compiled engine here.
     """
 
-    def __init__(self, course, balls=('ball',), effects='auto', accuracy='standard', wind=ZERO,
-                 engine='auto'):
+    def __init__(
+        self,
+        course,
+        balls=('ball',),
+        effects='auto',
+        accuracy='standard',
+        wind=ZERO,
+        engine='auto',
+    ):
         self.course = course
         self.names = checked_names(balls)
         self._numbers = {name: number for number, name in enumerate(self.names)}
@@ -83,10 +124,12 @@ class World:
         self._live['wind'] = checked_live('wind', wind)
         self._labels = reporting.Labels(self.names, model_.material_names(course), course.hole)
         self._log, self._events, self._now = new_log(64 + 16 * len(self.names)), [], 0.0
-        self.failures, self.last_failure = 0, ''  # of balls that could not go on: how many, and why
+        # of balls that could not go on: how many, and why
+        self.failures, self.last_failure = 0, ''
         self.shots = 0  # strikes that were taken; each is the number of its `Result`
         self._pegs = {}  # where each ball was teed, by number
-        self._lost = []  # numbers of lost balls, which are dropped at the end of a call of the engine
+        # numbers of lost balls, which are dropped at the end of a call of the engine
+        self._lost = []
         self._balls = np.zeros(len(self.names), BALL)
         engine = checked_engine(engine)
         self._engine = compiled_engine() if engine == 'compiled' else PYTHON
@@ -107,7 +150,9 @@ class World:
         self._scene = Scene(self.course, len(self.names), **self._live)
         self._chosen = choose(self._asked, self._scene)
         keeps_dormant = self._engine.keeps_dormant
-        self._records = self._chosen.with_dormant(self._scene) if keeps_dormant else self._chosen.records
+        self._records = (
+            self._chosen.with_dormant(self._scene) if keeps_dormant else self._chosen.records
+        )
 
     @property
     def effects_on(self):
@@ -127,8 +172,13 @@ class World:
     def __getitem__(self, name):
         """`BallState` of the ball called `name`."""
         ball = self._ball(name)
-        return BallState(three(ball['position']), three(ball['velocity']), three(ball['spin']),
-                         PHASES[ball['phase']], self._lie(ball))
+        return BallState(
+            three(ball['position']),
+            three(ball['velocity']),
+            three(ball['spin']),
+            PHASES[ball['phase']],
+            self._lie(ball),
+        )
 
     def _ball(self, name):
         return self._balls[self._number(name)]
@@ -150,7 +200,10 @@ class World:
 
     @property
     def in_motion(self):
-        """Names of the balls that move; of the phases, flight is the first that does and rolling the last."""
+        """Names of the balls that move.
+
+        Of the phases, flight is the first that does and rolling the last.
+        """
         phases = self._balls['phase'].tolist()
         return [name for name, phase in zip(self.names, phases) if FLIGHT <= phase <= ROLL]
 
@@ -171,22 +224,24 @@ class World:
             try:
                 self._put(number, place)
             except NoPlace as error:
-                raise NoPlace(placement.unfit(self.course.tee, self.names, number, error)) from None
+                raise NoPlace(
+                    placement.unfit(self.course.tee, self.names, number, error)
+                ) from None
             self._pegs[number] = three(self._balls[number]['position'])
 
     def place(self, name, position, velocity=None, spin=None):
         """Put a ball down: at (x, y) on the ground there, or exactly at (x, y, z).
 
-        At (x, y) it comes down beside the flagstick where that stands in its way into the hole, and on no
-        obstacle: where there is one, it is refused.
+        At (x, y) it comes down beside the flagstick where that stands in its way into the hole,
+        and on no obstacle: where there is one, it is refused.
 
         With a `velocity` [m/s] or `spin` [rad/s] it sets off, without being struck.
 
         Raises
         ------
         ValueError
-            Not finite or over 1e6 m away, no ground at (x, y), inside anything solid or another ball, in
-            water.
+            Not finite or over 1e6 m away, no ground at (x, y), inside anything solid or another
+            ball, in water.
         """
         number = self._number(name)
         position, velocity, spin = placement.checked_start(position, velocity, spin)
@@ -205,7 +260,9 @@ class World:
 
     @property
     def _site(self):
-        return placement.Site(self.course, self._model, self._engine.put_down, 'ball_ball' in self._chosen.on)
+        return placement.Site(
+            self.course, self._model, self._engine.put_down, 'ball_ball' in self._chosen.on
+        )
 
     def reset(self):
         """Put all balls back to the start.
@@ -227,7 +284,8 @@ class World:
     def _drop(self, number, now):
         """Drop a lost ball.
 
-        Moving balls begin new segments, or they would miss the ball in their way; time steps end soon anyway.
+        Moving balls begin new segments, or they would miss the ball in their way; time steps end
+        soon anyway.
         """
         self._forget_tree()  # where it was is not where it will be
         placement.drop(self._site, self._balls, number, self._pegs[number], now)
@@ -281,7 +339,9 @@ class World:
         return self.happened()
 
     def happened(self):
-        """Take the events of a strike, a placement or a reset; else the next `advance` returns them first.
+        """Take the events of a strike, a placement or a reset.
+
+        Else the next `advance` returns them first.
 
         A ball that is struck too weakly to move ends its shot within the strike.
 
@@ -320,7 +380,7 @@ class World:
             with np.errstate(all='ignore'):
                 return run(self._model, self._balls, until, self._workspace, self._log)
         except (ArithmeticError, ValueError):
-            at_hand = self._workspace.involved[:self._workspace.count[INVOLVED]].tolist()
+            at_hand = self._workspace.involved[: self._workspace.count[INVOLVED]].tolist()
             if not at_hand:
                 raise
         self._fail(at_hand, min(until, self._workspace.segment_ends[at_hand[0]]))
@@ -338,7 +398,10 @@ class World:
         self._forget_tree()
 
     def _take_report(self, start):
-        """Take what the engine has logged; `start` is the world's time at the zero of the engine's clock."""
+        """Take what the engine has logged.
+
+        `start` is the world's time at the zero of the engine's clock.
+        """
         events, lost, failures = reporting.report(self._log, self._balls, self._labels, start)
         self._events += events
         self._lost += lost
@@ -401,7 +464,8 @@ class World:
     def engine(self):
         """Engine that runs the physics: 'python' or 'compiled'; may be set, also while balls move.
 
-        Setting 'compiled' loads what is needed, or compiles it in this process: up to a minute; see `build`.
+        Setting 'compiled' loads what is needed, or compiles it in this process: up to a minute;
+        see `build`.
         """
         return self._engine.name
 
@@ -423,7 +487,9 @@ class World:
         return self._types(self._records)
 
     def _types(self, records):
-        types = map(type, (*records, self._preset.method, *self._model.land.ground.kinds, self._workspace))
+        types = map(
+            type, (*records, self._preset.method, *self._model.land.ground.kinds, self._workspace)
+        )
         return ' '.join(f'{kind.__module__}.{kind.__qualname__}' for kind in types)
 
     @property
@@ -448,7 +514,10 @@ class World:
 
     @property
     def spent(self):
-        """Processor's cycles that the engine has spent since `measure`, by stage; see `cycles_now`."""
+        """Processor's cycles that the engine has spent since `measure`, by stage.
+
+        See `cycles_now`.
+        """
         return dict(zip(STAGES, self._workspace.spent.tolist()))
 
     def state(self, written=plain):
@@ -457,8 +526,14 @@ class World:
         `written` serialises a `BALL` record.
         """
         balls = {name: written(ball) for name, ball in zip(self.names, self._balls)}
-        return {'time': self.time, 'clock': self._now, 'engine': self.engine, 'accuracy': self.accuracy,
-                **{effect: list(value) for effect, value in self._live.items()}, 'balls': balls}
+        return {
+            'time': self.time,
+            'clock': self._now,
+            'engine': self.engine,
+            'accuracy': self.accuracy,
+            **{effect: list(value) for effect, value in self._live.items()},
+            'balls': balls,
+        }
 
     def restore(self, state):
         """Restore the `state` of a world on the same course, with the same effects, and go on from there.
@@ -480,7 +555,10 @@ class World:
 
 
 def check_tee(course):
-    """Check that a ball can lie on the course's tee, whatever its effects; `NoPlace` where it can't."""
+    """Check that a ball can lie on the course's tee, whatever its effects.
+
+    `NoPlace` where it can't.
+    """
     World(course._replace(effects='auto'), engine='python')
 
 
@@ -489,8 +567,10 @@ def checked_names(balls):
     names = tuple(f'ball_{i}' for i in range(balls)) if isinstance(balls, int) else tuple(balls)
     for name in names:
         if not re.fullmatch('[a-z][a-z0-9_]*', name) or name in RESERVED:
-            raise ValueError(f'ball name {name!r} is not allowed: lower-case letters, digits and _, '
-                             f'not {", ".join(sorted(RESERVED))}')
+            raise ValueError(
+                f'ball name {name!r} is not allowed: lower-case letters, digits and _, '
+                f'not {", ".join(sorted(RESERVED))}'
+            )
     if not names or len(set(names)) < len(names):
         raise ValueError(f'ball names {names} must be at least one and all different')
     return names

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Recorded play, read from a rosbag2 bag (MCAP or sqlite3) with no ROS installed."""
+
 from collections import defaultdict
 import json
 from pathlib import Path
@@ -7,16 +21,20 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
-from ..optional_packages import how_to_get
 from .bag_file import BagError, raw_messages
 from .journal import JournalError, opened
 from .journal_format import current
+from ..optional_packages import how_to_get
 
 __all__ = ['BagError', 'read_bag', 'Recording', 'Strike', 'Track']
 
 TEXT, POSE, TWIST, STRIKE, WIND = (
-    'std_msgs/msg/String', 'geometry_msgs/msg/PoseStamped', 'geometry_msgs/msg/TwistStamped',
-    'geometry_msgs/msg/Twist', 'geometry_msgs/msg/Vector3Stamped')
+    'std_msgs/msg/String',
+    'geometry_msgs/msg/PoseStamped',
+    'geometry_msgs/msg/TwistStamped',
+    'geometry_msgs/msg/Twist',
+    'geometry_msgs/msg/Vector3Stamped',
+)
 OF_SIM = {'journal': TEXT, 'shot/result': TEXT, 'collisions': TEXT, 'shot': STRIKE, 'wind': WIND}
 OF_RESULT = {'shot': int, 'ball': str, 'status': str}  # what every result has, and every collision
 OF_COLLISION = {'time': (int, float), 'ball': str, 'kind': str, 'with': str}
@@ -110,10 +128,16 @@ def read_bag(path):
         told = raw_messages(Path(path))
     except (BagError, OSError, MemoryError) as error:
         raise BagError(f'{path}: {error}') from None
-    sims = {topic.removesuffix(f'/{end}') for topic, kind in {message[1:3] for message in told}
-            for end in ('journal', 'shot/result') if topic.endswith(f'/{end}') and kind == TEXT}
+    sims = {
+        topic.removesuffix(f'/{end}')
+        for topic, kind in {message[1:3] for message in told}
+        for end in ('journal', 'shot/result')
+        if topic.endswith(f'/{end}') and kind == TEXT
+    }
     if not sims:
-        raise BagError(f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`')
+        raise BagError(
+            f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`'
+        )
     plays, decode = {}, decoder(path)
     for received, topic, kind, raw in told:
         place = sorted_out(topic, kind, sims)
@@ -123,14 +147,17 @@ def read_bag(path):
             parts = plays.setdefault(namespace, [defaultdict(list)])
             parts = begun(parts, name, message, path)
             parts[ball, name].append((received, message))
-    return tuple(recording(namespace, parts, path)
-                 for namespace, starts in plays.items() for parts in starts)
+    return tuple(
+        recording(namespace, parts, path)
+        for namespace, starts in plays.items()
+        for parts in starts
+    )
 
 
 def decoder(path):
     """Function that makes a message of a topic, a type and bytes."""
     try:
-        from rosbags.typesys import Stores, get_typestore
+        from rosbags.typesys import get_typestore, Stores
     except ImportError:
         raise BagError(f'reading a bag needs rosbags: {how_to_get("bag", "rosbags")}') from None
     types = get_typestore(Stores.ROS2_JAZZY)
@@ -140,14 +167,21 @@ def decoder(path):
             return types.deserialize_cdr(raw, kind)
         except Exception as error:  # damage makes the library raise almost anything
             reason = ' '.join(str(error).split()) or type(error).__name__
-            raise BagError(f'{path}: is damaged: a message of {topic} cannot be read: {reason}') from None
+            raise BagError(
+                f'{path}: is damaged: a message of {topic} cannot be read: {reason}'
+            ) from None
+
     return decode
 
 
 def sorted_out(topic, kind, sims):
     """Namespace, ball or '', and name of a topic of one of `sims`; None for any other."""
     for end, expected in OF_SIM.items():
-        if topic.endswith(f'/{end}') and kind == expected and topic.removesuffix(f'/{end}') in sims:
+        if (
+            topic.endswith(f'/{end}')
+            and kind == expected
+            and topic.removesuffix(f'/{end}') in sims
+        ):
             return topic.removesuffix(f'/{end}'), '', end
     namespace, _, rest = topic.rpartition('/')[0].rpartition('/')
     name = topic.rpartition('/')[2]
@@ -174,14 +208,22 @@ def recording(namespace, parts, path):
     journal = tuple(entries(parts['', 'journal'], path))
     winds = parts['', 'wind']
     return Recording(
-        namespace, start, journal,
-        tuple(once(texts(parts['', 'shot/result'], path, OF_RESULT), lambda result: result['shot'])),
+        namespace,
+        start,
+        journal,
+        tuple(
+            once(texts(parts['', 'shot/result'], path, OF_RESULT), lambda result: result['shot'])
+        ),
         tuple(once(texts(parts['', 'collisions'], path, OF_COLLISION), repr)),
         tuple(sorted(strikes(parts, journal))),
-        {ball: track(parts[ball, 'pose'], parts[ball, 'twist'])
-         for (ball, name), _ in by_topic(parts) if name == 'pose'},
+        {
+            ball: track(parts[ball, 'pose'], parts[ball, 'twist'])
+            for (ball, name), _ in by_topic(parts)
+            if name == 'pose'
+        },
         np.array([ros_time(message) or received for received, message in winds], np.int64),
-        table([message.vector for _, message in winds]))
+        table([message.vector for _, message in winds]),
+    )
 
 
 def first_pose(parts):
@@ -197,7 +239,9 @@ def by_topic(parts):
 
 def entries(told, path):
     """Entries of a journal, each once, in the order of their numbers."""
-    found = [{**current(entry_of(message, path)), 'received': received} for received, message in told]
+    found = [
+        {**current(entry_of(message, path)), 'received': received} for received, message in told
+    ]
     return sorted(once(found, lambda entry: entry['entry']), key=lambda entry: entry['entry'])
 
 
@@ -232,11 +276,15 @@ def once(found, key):
 
 def strikes(parts, journal):
     """Strikes as sent; those on `shot`, without the name of a ball, are for the first one."""
-    balls = next((entry['parameters']['balls'] for entry in journal if entry['kind'] == 'config'), [''])
+    balls = next(
+        (entry['parameters']['balls'] for entry in journal if entry['kind'] == 'config'), ['']
+    )
     for (ball, name), told in by_topic(parts):
         if name == 'shot':
             for received, message in told:
-                yield Strike(received, ball or balls[0], triple(message.linear), triple(message.angular))
+                yield Strike(
+                    received, ball or balls[0], triple(message.linear), triple(message.angular)
+                )
 
 
 def track(poses, twists):
@@ -248,7 +296,8 @@ def track(poses, twists):
         np.array([(turn.x, turn.y, turn.z, turn.w) for turn in turns]).reshape(-1, 4),
         np.array([ros_time(message) for _, message in twists], np.int64),
         table([message.twist.linear for _, message in twists]),
-        table([message.twist.angular for _, message in twists]))
+        table([message.twist.angular for _, message in twists]),
+    )
 
 
 def table(vectors):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Messages in the files of a rosbag2 bag, not decoded, so that topics of other nodes do no harm."""
+
 from contextlib import closing
 from io import BytesIO
 from pathlib import Path
@@ -31,10 +45,14 @@ def raw_messages(path):
     """
     if path.is_file():
         if path.suffix not in SUFFIXES:
-            raise BagError(f'is no bag: a folder is one, or a file that ends in {" or ".join(SUFFIXES)}')
+            raise BagError(
+                f'is no bag: a folder is one, or a file that ends in {" or ".join(SUFFIXES)}'
+            )
         return from_file(path)
     if not path.is_dir():
-        raise BagError('is neither a folder nor a file' if path.exists() else 'there is no such bag')
+        raise BagError(
+            'is neither a folder nor a file' if path.exists() else 'there is no such bag'
+        )
     about = metadata(path)
     files = [path / Path(str(name)).name for name in about['relative_file_paths']]
     for file in files:
@@ -51,8 +69,11 @@ def metadata(path):
     if not file.is_file():
         parts = sorted(part.name for part in path.iterdir() if part.suffix in SUFFIXES)
         one = f', or name its file {path / parts[0]}' if parts else ''
-        raise BagError(f'has no metadata.yaml: {REINDEX.format(path)}{one}' if parts else 'is no bag: it has '
-                       'neither a metadata.yaml nor files with messages')
+        raise BagError(
+            f'has no metadata.yaml: {REINDEX.format(path)}{one}'
+            if parts
+            else 'is no bag: it has neither a metadata.yaml nor files with messages'
+        )
     try:
         about = yaml.safe_load(file.read_text(encoding='utf-8'))['rosbag2_bagfile_information']
         if isinstance(about['relative_file_paths'], list):
@@ -70,20 +91,28 @@ def from_file(path):
 
 def sqlite(path):
     """Messages of a .db3 file."""
-    query = ('SELECT messages.timestamp, topics.name, topics.type, messages.data FROM messages '
-             "JOIN topics ON messages.topic_id = topics.id WHERE topics.serialization_format = 'cdr' "
-             'ORDER BY messages.timestamp, messages.id')
+    query = (
+        'SELECT messages.timestamp, topics.name, topics.type, messages.data FROM messages '
+        "JOIN topics ON messages.topic_id = topics.id WHERE topics.serialization_format = 'cdr' "
+        'ORDER BY messages.timestamp, messages.id'
+    )
     try:
-        with closing(sqlite3.connect(f'file:{quote(str(path))}?mode=ro&immutable=1', uri=True)) as file:
+        with closing(
+            sqlite3.connect(f'file:{quote(str(path))}?mode=ro&immutable=1', uri=True)
+        ) as file:
             file.text_factory = lambda text: text.decode('utf-8', 'replace')
-            trouble, = file.execute('PRAGMA quick_check(1)').fetchone()
+            (trouble,) = file.execute('PRAGMA quick_check(1)').fetchone()
             if trouble != 'ok':
                 raise BagError(f'{path.name} is damaged: {" ".join(trouble.split())}')
-            return [(time, topic, kind, bytes(raw)) for time, topic, kind, raw in file.execute(query)]
+            return [
+                (time, topic, kind, bytes(raw)) for time, topic, kind, raw in file.execute(query)
+            ]
     except (sqlite3.Error, TypeError, ValueError, OverflowError) as error:
         if isinstance(error, BagError):
             raise
-        raise BagError(f'{path.name} is damaged, or no bag: {" ".join(str(error).split())}') from None
+        raise BagError(
+            f'{path.name} is damaged, or no bag: {" ".join(str(error).split())}'
+        ) from None
 
 
 class Schemas(dict):
@@ -107,8 +136,10 @@ def mcap(path):
     """Messages of a .mcap file."""
     raw = path.read_bytes()
     if not raw.endswith(END):
-        raise BagError(f'{path.name} is damaged: its end is missing, as of a recording or copy that was '
-                       'cut off; `mcap recover` saves what is there')
+        raise BagError(
+            f'{path.name} is damaged: its end is missing, as of a recording or copy that was '
+            'cut off; `mcap recover` saves what is there'
+        )
     return by_rosbags(path, raw)
 
 
@@ -123,12 +154,21 @@ def by_rosbags(path, raw=None):
         if raw is not None:
             reader.storage.path, reader.storage.schemas = InMemory(raw), Schemas()
         with reader:
-            # Those of the storage: where its QoS is not that of the metadata, rosbags would find nothing.
+            # Those of the storage: where its QoS is not that of the metadata, rosbags would find
+            # nothing.
             stores = getattr(reader.storage, 'storages', [reader.storage])
-            wanted = [connection for store in stores for connection in store.connections
-                      if connection.ext.serialization_format == 'cdr']
-            return [(time, connection.topic, connection.msgtype, raw)
-                    for connection, time, raw in (reader.messages(wanted) if wanted else ())]
-    except Exception as error:  # damage makes the library, and those below it, raise almost anything
+            wanted = [
+                connection
+                for store in stores
+                for connection in store.connections
+                if connection.ext.serialization_format == 'cdr'
+            ]
+            return [
+                (time, connection.topic, connection.msgtype, raw)
+                for connection, time, raw in (reader.messages(wanted) if wanted else ())
+            ]
+    except (
+        Exception
+    ) as error:  # damage makes the library, and those below it, raise almost anything
         reason = ' '.join(str(error).split()) or type(error).__name__
         raise BagError(f'{path.name} is damaged, or no bag: {reason}') from None

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A rosbag2 bag, written as messages arrive, with the QoS that their publishers offer."""
+
 from pathlib import Path
 
 from ..optional_packages import how_to_get
@@ -31,23 +45,33 @@ class BagWriter:
         try:
             from rosbags.rosbag2 import StoragePlugin, Writer
             from rosbags.rosbag2.errors import WriterError
-            from rosbags.typesys import Stores, get_typestore
+            from rosbags.typesys import get_typestore, Stores
         except ImportError:
-            raise CannotRecord(f'recording needs rosbags: {how_to_get("bag", "rosbags")}') from None
+            raise CannotRecord(
+                f'recording needs rosbags: {how_to_get("bag", "rosbags")}'
+            ) from None
         self.path, self.types = Path(path), get_typestore(Stores.ROS2_JAZZY)
         try:
-            self.writer = Writer(self.path, version=9, storage_plugin=StoragePlugin[storage.upper()])
+            self.writer = Writer(
+                self.path, version=9, storage_plugin=StoragePlugin[storage.upper()]
+            )
             self.writer.open()
         except (OSError, WriterError) as error:
             raise CannotRecord(f'{path}: {error}') from None
         self.connections, self.count = {}, 0
 
     def add(self, topic, kind, profiles):
-        """Begin a topic, once; `profiles` are the offered QoS, (reliability, durability, depth) by name."""
+        """Begin a topic, once.
+
+        `profiles` are the offered QoS, (reliability, durability, depth) by name.
+        """
         if topic not in self.connections:
             self.connections[topic] = self.writer.add_connection(
-                topic, kind, typestore=self.types,
-                offered_qos_profiles=[qos(*profile) for profile in profiles])
+                topic,
+                kind,
+                typestore=self.types,
+                offered_qos_profiles=[qos(*profile) for profile in profiles],
+            )
 
     def write(self, topic, time, data):
         """Write a serialized message received at `time` [ns] on a topic that was added."""
@@ -61,7 +85,24 @@ class BagWriter:
 
 def qos(reliability, durability, depth):
     """QoS profile as bags keep it."""
-    from rosbags.interfaces import (Qos, QosDurability, QosHistory, QosLiveliness, QosReliability, QosTime)
+    from rosbags.interfaces import (
+        Qos,
+        QosDurability,
+        QosHistory,
+        QosLiveliness,
+        QosReliability,
+        QosTime,
+    )
+
     never = QosTime(*NEVER)
-    return Qos(QosHistory.KEEP_LAST, depth, QosReliability[reliability], QosDurability[durability],
-               never, never, QosLiveliness.AUTOMATIC, never, False)
+    return Qos(
+        QosHistory.KEEP_LAST,
+        depth,
+        QosReliability[reliability],
+        QosDurability[durability],
+        never,
+        never,
+        QosLiveliness.AUTOMATIC,
+        never,
+        False,
+    )

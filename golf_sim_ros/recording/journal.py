@@ -1,19 +1,33 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The journal of a play: every input, so that the play can be run again to the bit.
 
 An entry is one JSON object on one line. Its first keys are its number, from 0, its kind, and its
 tick: how many ticks had passed when the input was applied. Its last key is a CRC-32 of all that
 stands before it, so that a changed byte is noticed.
 """
+
 from importlib.metadata import PackageNotFoundError, version
 import json
 import platform
 from zlib import crc32
 
+from .journal_format import FORMAT
+from .json_format import text, Written
 from .. import __version__
 from ..physics.jit.cache import source_key
-from .journal_format import FORMAT
-from .json_format import Written, text
 
 SEAL = ', "crc32": '
 
@@ -40,10 +54,25 @@ class Journal:
         self.entries += 1
 
     def config(self, world, parameters, start):
-        """Write the configuration of the play. `start`: ROS time [ns] at which simulated time began."""
-        course = {'name': world.course.name, 'path': world.course.path, 'digest': world.course.digest}
-        self.note('config', 0, format=FORMAT, version=__version__, course=course, parameters=parameters,
-                  start=start, made_with=made_with())
+        """Write the configuration of the play.
+
+        `start`: ROS time [ns] at which simulated time began.
+        """
+        course = {
+            'name': world.course.name,
+            'path': world.course.path,
+            'digest': world.course.digest,
+        }
+        self.note(
+            'config',
+            0,
+            format=FORMAT,
+            version=__version__,
+            course=course,
+            parameters=parameters,
+            start=start,
+            made_with=made_with(),
+        )
 
     def strike(self, tick, shot, name, strike, state):
         """Write strike number `shot`: `strike` is (velocity, spin), `state` that of the world just before."""
@@ -52,7 +81,9 @@ class Journal:
 
     def rest(self, tick, shot, result, ball):
         """Write the end of a shot; `ball` is the `BallState` at `tick`."""
-        self.note('rest', tick, shot=shot, ball=result.ball, status=result.status, state=standing(ball))
+        self.note(
+            'rest', tick, shot=shot, ball=result.ball, status=result.status, state=standing(ball)
+        )
 
 
 def standing(ball):
@@ -62,8 +93,13 @@ def standing(ball):
 
 def made_with():
     """Versions, physics and processor: where they are the same, so is a play to the bit."""
-    return {'physics': source_key(), 'python': platform.python_version(), 'numpy': _version('numpy'),
-            'numba': _version('numba'), 'processor': _processor()}
+    return {
+        'physics': source_key(),
+        'python': platform.python_version(),
+        'numpy': _version('numpy'),
+        'numba': _version('numba'),
+        'processor': _processor(),
+    }
 
 
 def _version(name):
@@ -77,7 +113,9 @@ def _processor():
     """The processor's name, or at least its family: what compilers and mathematical libraries adapt to."""
     try:
         with open('/proc/cpuinfo', encoding='utf-8') as file:
-            names = [line.partition(':')[2].strip() for line in file if line.startswith('model name')]
+            names = [
+                line.partition(':')[2].strip() for line in file if line.startswith('model name')
+            ]
     except OSError:
         names = []
     return ' '.join([platform.machine(), *names[:1]])
@@ -85,8 +123,10 @@ def _processor():
 
 def sealed(entry):
     """Text of an entry, with its checksum."""
-    parts = (f'"{key}": {value if isinstance(value, Written) else text(value)}'
-             for key, value in entry.items())
+    parts = (
+        f'"{key}": {value if isinstance(value, Written) else text(value)}'
+        for key, value in entry.items()
+    )
     body = '{' + ', '.join(parts)
     return f'{body}{SEAL}{crc32(body.encode())}}}'
 

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """JSON of results, collisions and balls, as it is published."""
+
 from functools import lru_cache
 import json
 from math import isfinite
@@ -9,12 +23,44 @@ import numpy as np
 from ..physics.state.ball import BALL
 from ..physics.state.serialize import OF_TICK, plain_of_segment, plain_of_tick
 
-RESULT = ('shot', 'ball', 'status', 'carry', 'carry_side', 'total', 'side', 'apex', 'flight_time',
-          'duration', 'to_hole', 'lie', 'landing_speed', 'landing_angle', 'bounces', 'time',
-          'position', 'velocity', 'spin', 'reason', 'stroke', 'penalty')
+RESULT = (
+    'shot',
+    'ball',
+    'status',
+    'carry',
+    'carry_side',
+    'total',
+    'side',
+    'apex',
+    'flight_time',
+    'duration',
+    'to_hole',
+    'lie',
+    'landing_speed',
+    'landing_angle',
+    'bounces',
+    'time',
+    'position',
+    'velocity',
+    'spin',
+    'reason',
+    'stroke',
+    'penalty',
+)
 REJECTION = ('shot', 'ball', 'status', 'velocity', 'spin', 'reason')
-COLLISION = ('time', 'ball', 'kind', 'with', 'position', 'normal', 'velocity_before',
-             'velocity_after', 'spin_before', 'spin_after', 'impulse')
+COLLISION = (
+    'time',
+    'ball',
+    'kind',
+    'with',
+    'position',
+    'normal',
+    'velocity_before',
+    'velocity_after',
+    'spin_before',
+    'spin_after',
+    'impulse',
+)
 ENCODER = json.JSONEncoder(allow_nan=False)
 TICK_BYTES = BALL.fields[BALL.names[len(OF_TICK)]][1]
 DIGITS = 4  # of lengths, speeds and angles in a result; `time` has two more
@@ -58,12 +104,18 @@ def ball_text(ball):
 
 @lru_cache(maxsize=1000)
 def segment_text(record):
-    """Part of `ball_text` that lasts a segment; `record` has the bytes after those that a tick writes."""
+    """Part of `ball_text` that lasts a segment.
+
+    `record` has the bytes after those that a tick writes.
+    """
     return text(plain_of_segment(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
 
 
 def plain(value, digits=None):
-    """`value` for JSON: floats rounded, if to `digits`, without a negative zero; None where not finite."""
+    """`value` for JSON: floats rounded, if to `digits`, without a negative zero.
+
+    None where not finite.
+    """
     if isinstance(value, float):
         if not isfinite(value):
             return None
@@ -74,7 +126,10 @@ def plain(value, digits=None):
 
 
 def text(values):
-    """`values` as JSON; numbers come back as they were, to the bit. What is not finite is a text: 'nan'."""
+    """`values` as JSON; numbers come back as they were, to the bit.
+
+    What is not finite is a text: 'nan'.
+    """
     try:
         return ENCODER.encode(values)
     except ValueError:

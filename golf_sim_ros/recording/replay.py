@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Recorded shots, run again: whether they are the same to the bit, and where they differ first."""
+
 from collections import defaultdict
 import json
 from math import ceil
@@ -8,12 +22,12 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from .bag import BagError
+from .journal import standing
+from .json_format import collision_text, DIGITS, plain, result_text
 from ..course import CourseError, load_course
 from ..physics import Result, World
 from ..physics.live_parameters import LIVE
-from .bag import BagError
-from .journal import standing
-from .json_format import DIGITS, collision_text, plain, result_text
 
 INPUTS = ('strike', 'place', 'reset', 'accuracy', *LIVE)
 STATE = ('time', 'clock', 'accuracy', 'balls')
@@ -38,9 +52,9 @@ class Shot(NamedTuple):
 class Rerun(NamedTuple):
     """A shot that was run again.
 
-    ``path``: `BallState` at each tick from that of the strike to that before the end; ``impacts``: tick
-    and `Collision` of each; ``end``: the last tick; ``rest``: `BallState` then; ``trouble``: why it
-    could not be run to its end, or ''.
+    ``path``: `BallState` at each tick from that of the strike to that before the end; ``impacts``:
+    tick and `Collision` of each; ``end``: the last tick; ``rest``: `BallState` then; ``trouble``:
+    why it could not be run to its end, or ''.
     """
 
     path: list
@@ -98,14 +112,23 @@ def world_of(recording, course=None):
     config = recording.config
     if config is None:
         missing = 'the beginning of its journal' if recording.journal else 'journal'
-        raise BagError(f'{recording.namespace or "/"}: no {missing} was recorded: it cannot be run again')
+        raise BagError(
+            f'{recording.namespace or "/"}: no {missing} was recorded: it cannot be run again'
+        )
     parameters = config['parameters']
     found = course_of(config, course)
     if found.digest != config['course']['digest']:
-        raise BagError(f'course {found.path}: is not the one that was played: its digest is '
-                       f'{found.digest[:12]}, in the journal {config["course"]["digest"][:12]}')
-    return World(found, parameters['balls'], tuple(parameters['effects']), parameters['accuracy'],
-                 engine='python')
+        raise BagError(
+            f'course {found.path}: is not the one that was played: its digest is '
+            f'{found.digest[:12]}, in the journal {config["course"]["digest"][:12]}'
+        )
+    return World(
+        found,
+        parameters['balls'],
+        tuple(parameters['effects']),
+        parameters['accuracy'],
+        engine='python',
+    )
 
 
 def engine_of(recording, shot):
@@ -146,8 +169,12 @@ def rerun(world, shot, tick):
 
 def begin(world, strike):
     """Go back to where a recorded strike was made, and make it."""
-    world.restore({**{name: strike[name] for name in STATE},
-                   **{effect: strike[effect] for effect in LIVE if effect in strike}})
+    world.restore(
+        {
+            **{name: strike[name] for name in STATE},
+            **{effect: strike[effect] for effect in LIVE if effect in strike},
+        }
+    )
     world.strike(strike['ball'], strike['velocity'], strike['spin'])
 
 
@@ -181,7 +208,9 @@ def impacts_of(events, name):
 
 def own_result(events, name):
     """Result of ball `name` among `events`, or None."""
-    return next((event for event in events if isinstance(event, Result) and event.ball == name), None)
+    return next(
+        (event for event in events if isinstance(event, Result) and event.ball == name), None
+    )
 
 
 def difference(recording, shot, again, exact=True):
@@ -192,8 +221,12 @@ def difference(recording, shot, again, exact=True):
     if again.trouble:
         return Difference(again.end, 'input', 'taken', again.trouble)
     tick = tick_of(recording)
-    found = [*unsent(recording, shot), *off_path(recording, shot, again),
-             *other_impacts(recording, shot, again, tick), *other_end(recording, shot, again)]
+    found = [
+        *unsent(recording, shot),
+        *off_path(recording, shot, again),
+        *other_impacts(recording, shot, again, tick),
+        *other_end(recording, shot, again),
+    ]
     found = [one for one in found if exact or not are_close(one)]
     return min(found, key=lambda one: one.tick, default=None)
 
@@ -202,9 +235,11 @@ def are_close(one):
     """Whether a `Difference` is rounding, as between the engines or in the last digit of a result."""
     if isinstance(one.recorded, str) or one.recorded is None or one.again is None:
         return False
-    within = 1.01 * 10.0 ** -DIGITS if one.field.endswith('of the result') else CLOSE
+    within = 1.01 * 10.0**-DIGITS if one.field.endswith('of the result') else CLOSE
     told, now = np.array(one.recorded, float), np.array(one.again, float)
-    return told.shape == now.shape and bool((abs(told - now) <= within * np.maximum(1.0, abs(told))).all())
+    return told.shape == now.shape and bool(
+        (abs(told - now) <= within * np.maximum(1.0, abs(told))).all()
+    )
 
 
 def tick_of(recording):
@@ -219,10 +254,16 @@ def unsent(recording, shot):
     sent = [one for one in recording.strikes if one.ball == strike['ball']]
     if any(played(strike, one) for one in sent):
         return
-    since = max((entry['received'] for entry in journal if entry['entry'] < strike['entry']), default=0)
-    lost = [one for one in sent if since < one.received <= strike['received']
-            and not any(played(entry, one) for entry in journal)
-            and not any(rejected(result, one) for result in recording.results)]
+    since = max(
+        (entry['received'] for entry in journal if entry['entry'] < strike['entry']), default=0
+    )
+    lost = [
+        one
+        for one in sent
+        if since < one.received <= strike['received']
+        and not any(played(entry, one) for entry in journal)
+        and not any(rejected(result, one) for result in recording.results)
+    ]
     for field in ('velocity', 'spin') if lost else ():
         told, mine = tuple(strike[field]), getattr(lost[-1], field)
         if told != mine:
@@ -246,12 +287,20 @@ def off_path(recording, shot, again):
     if track is None:
         return
     for times, fields in ((track.times, ('position',)), (track.twist_times, ('velocity', 'spin'))):
-        ticks = np.rint(recording.seconds(times) / tick_of(recording)).astype(int) - shot.strike['tick']
+        ticks = (
+            np.rint(recording.seconds(times) / tick_of(recording)).astype(int)
+            - shot.strike['tick']
+        )
         for row in np.flatnonzero((ticks > 0) & (ticks < len(again.path))):
             for field in fields:
-                told, now = getattr(track, MANY[field])[row], getattr(again.path[ticks[row]], field)
+                told, now = (
+                    getattr(track, MANY[field])[row],
+                    getattr(again.path[ticks[row]], field),
+                )
                 if told.tobytes() != np.array(now).tobytes():
-                    yield Difference(shot.strike['tick'] + int(ticks[row]), field, tuple(told.tolist()), now)
+                    yield Difference(
+                        shot.strike['tick'] + int(ticks[row]), field, tuple(told.tolist()), now
+                    )
 
 
 def other_impacts(recording, shot, again, tick):
@@ -267,10 +316,14 @@ def other_impacts(recording, shot, again, tick):
         if told['ball'] == strike['ball'] and strike['time'] <= told['time'] <= end:
             number = strike['tick'] + ceil((told['time'] - strike['time']) / tick)
             at_once = happened[told['time'], told['kind']] or [(number, {})]
-            number, now = next((one for one in at_once if told.items() <= one[1].items()), at_once[0])
+            number, now = next(
+                (one for one in at_once if told.items() <= one[1].items()), at_once[0]
+            )
             for field in told:
                 if told[field] != now.get(field):
-                    yield Difference(number, f'{field} of a collision', told[field], now.get(field))
+                    yield Difference(
+                        number, f'{field} of a collision', told[field], now.get(field)
+                    )
 
 
 def other_end(recording, shot, again):
@@ -285,7 +338,9 @@ def other_end(recording, shot, again):
         at_once = again.end == shot.strike['tick'] == rest['tick'] - 1
         now = {'tick': again.end + at_once, 'status': again.result.status, **standing(again.rest)}
         told = {'tick': rest['tick'], 'status': rest['status'], **rest['state']}
-        yield from differences(min(again.end, rest['tick']), 'rest', told, json.loads(json.dumps(now)))
+        yield from differences(
+            min(again.end, rest['tick']), 'rest', told, json.loads(json.dumps(now))
+        )
 
 
 def differences(tick, of, told, now):

@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Clubs, each with the average shot of the PGA Tour."""
+
 from typing import NamedTuple
 
 from .launch_monitor import Launch
 from .units import UNITS
 
-# TrackMan, "PGA Tour averages", the edition circulated from about 2010 to 2019 (that of 2023 is 2 to
-# 4 mph faster). Taken from three transcriptions that agree, not from TrackMan itself. Averages over
-# many shots, in conditions TrackMan does not state.
+# TrackMan, "PGA Tour averages", the edition circulated from about 2010 to 2019 (that of 2023 is 2
+# to 4 mph faster). Taken from three transcriptions that agree, not from TrackMan itself. Averages
+# over many shots, in conditions TrackMan does not state.
 #      club      ball speed mph, launch deg, spin rpm, carry yd
 TOUR_AVERAGES = (
     ('driver', 167, 10.9, 2686, 275),
@@ -24,8 +38,14 @@ TOUR_AVERAGES = (
     ('pw', 102, 24.2, 9304, 136),
 )
 PUTTER = 'putter'
-OTHER_NAMES = {'d': 'driver', '1w': 'driver', 'h': 'hybrid', 'rescue': 'hybrid', 'pitchingwedge': 'pw',
-               'putt': PUTTER}
+OTHER_NAMES = {
+    'd': 'driver',
+    '1w': 'driver',
+    'h': 'hybrid',
+    'rescue': 'hybrid',
+    'pitchingwedge': 'pw',
+    'putt': PUTTER,
+}
 
 
 class Club(NamedTuple):
@@ -48,7 +68,9 @@ class Club(NamedTuple):
 def _clubs():
     speed, angle, spin, length = UNITS['golf']
     for name, mph, degrees, rpm, yards in TOUR_AVERAGES:
-        launch = Launch(speed=mph * speed.size, launch=degrees * angle.size, backspin=rpm * spin.size)
+        launch = Launch(
+            speed=mph * speed.size, launch=degrees * angle.size, backspin=rpm * spin.size
+        )
         yield name, Club(name, launch, yards * length.size)
     yield PUTTER, Club(PUTTER)
 

@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 r"""Velocity and spin from what a launch monitor shows.
 
 Seen from above, the target ahead:     Seen from behind, along the flight:
@@ -12,10 +25,11 @@ Seen from above, the target ahead:     Seen from behind, along the flight:
                                                    |   \  spin axis, tilted to the right:
                                                           positive, curves to the right
 
-The Magnus force points along spin x velocity. So backspin, which lifts, turns about the axis to the
-right of the flight (-y for a shot along +x), and sidespin that curves to the right turns clockwise
-seen from above.
+The Magnus force points along spin x velocity. So backspin, which lifts, turns about the axis to
+the right of the flight (-y for a shot along +x), and sidespin that curves to the right turns
+clockwise seen from above.
 """
+
 from math import cos, sin
 from typing import NamedTuple
 
@@ -69,7 +83,7 @@ def velocity_and_spin(launch, heading=0.0):
     ahead_x, ahead_y = cos(heading - launch.azimuth), sin(heading - launch.azimuth)
     velocity = (launch.speed * along * ahead_x, launch.speed * along * ahead_y, launch.speed * up)
     right = (ahead_y, -ahead_x, 0.0)
-    above = (-up * ahead_x, -up * ahead_y, along)   # right x velocity, of unit length
+    above = (-up * ahead_x, -up * ahead_y, along)  # right x velocity, of unit length
     spin = tuple(launch.backspin * r - launch.sidespin * a for r, a in zip(right, above))
     return _without_negative_zeros(velocity), _without_negative_zeros(spin)
 

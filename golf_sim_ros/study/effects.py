@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Cost of each effect in a scene, and how the shot ends without it."""
+
 from typing import NamedTuple
 
 from .measure import Stage, timed
@@ -11,9 +25,9 @@ NEEDED = {'gravity'}  # without it nothing comes down
 class EffectRow(NamedTuple):
     """A scene without one of its effects.
 
-    ``touch_moved``, ``rest_moved`` [m]: how far first touch and rest then lie elsewhere, of several
-    balls the farthest; ``saved``: percentage of the time of a shot that it saves, ``time`` [s] being
-    that with all.
+    ``touch_moved``, ``rest_moved`` [m]: how far first touch and rest then lie elsewhere, of
+    several balls the farthest; ``saved``: percentage of the time of a shot that it saves, ``time``
+    [s] being that with all.
     """
 
     scene: str
@@ -39,7 +53,10 @@ def without(scene, effect):
 
 
 def jobs(scenes):
-    """A function for each row; of a `Game` only what no scene before it has: it would compile for minutes."""
+    """A function for each row.
+
+    Of a `Game` only what no scene before it has: it would compile for minutes.
+    """
     seen = set()
     for scene in scenes:
         for effect in droppable(scene):

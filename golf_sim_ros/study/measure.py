@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Measurement of a method on a scene: how far off it is, and how long it takes."""
+
 from math import hypot, sqrt
 from time import perf_counter, process_time
 from typing import NamedTuple
 
 import numpy as np
 
-from ..physics import Result, World, simulate_many
 from .scenes import Game
+from ..physics import Result, simulate_many, World
 
 BATCH_TIME = 0.02  # s: a batch of shots is at least this long
 REPEATS = 5
@@ -20,9 +34,10 @@ NOWHERE = (np.nan, np.nan)
 class Row(NamedTuple):
     """One method on one scene.
 
-    ``setting`` is the method's step or tolerance; errors [m] against the scene's reference, of the first
-    touch and of the rest; ``time`` [s] of a whole shot, the median of several batches; ``compiled`` [s]
-    that its machine code took to be made or loaded. Not a number where a method has no such figure.
+    ``setting`` is the method's step or tolerance; errors [m] against the scene's reference, of the
+    first touch and of the rest; ``time`` [s] of a whole shot, the median of several batches;
+    ``compiled`` [s] that its machine code took to be made or loaded. Not a number where a method
+    has no such figure.
     """
 
     scene: str
@@ -45,15 +60,17 @@ class Truth(NamedTuple):
 
     def errors(self, other):
         """Distances of the first touch, and of the ball whose rest is farthest off, of `other` from these."""
-        return (hypot(*np.subtract(self.touch, other.touch)),
-                float(np.linalg.norm(np.subtract(self.rest, other.rest), axis=1).max()))
+        return (
+            hypot(*np.subtract(self.touch, other.touch)),
+            float(np.linalg.norm(np.subtract(self.rest, other.rest), axis=1).max()),
+        )
 
 
 class Stage:
     """A scene ready to be played at an accuracy, with some effects: what is built for it is built once.
 
-    ``stage(count)`` plays `count` times and gives the `Truth` of one. ``rewinding``: time [s] that it has
-    taken to put balls back, which is none of a play's.
+    ``stage(count)`` plays `count` times and gives the `Truth` of one. ``rewinding``: time [s] that
+    it has taken to put balls back, which is none of a play's.
     """
 
     rewinding = 0.0
@@ -90,8 +107,14 @@ def set_up(game, accuracy, effects):
 def played(scene, accuracy, count=1, effects=None):
     """Result of `count` equal shots of a `Scene`, as `Truth`, from the first of them."""
     shot = scene.shot
-    told = simulate_many(scene.course, np.tile(shot.velocity, (count, 1)), np.tile(shot.spin, (count, 1)),
-                         scene.wind, effects or scene.effects, accuracy)[0]
+    told = simulate_many(
+        scene.course,
+        np.tile(shot.velocity, (count, 1)),
+        np.tile(shot.spin, (count, 1)),
+        scene.wind,
+        effects or scene.effects,
+        accuracy,
+    )[0]
     return truth(told['carry'], told['carry_side'], told['position'])
 
 
@@ -116,13 +139,21 @@ def ticked(scene, accuracy, rate):
 
 
 def timed(*plays):
-    """Median times [s] of one more shot of each ``play(count)``, in turns; what a call costs is taken off."""
+    """Median times [s] of one more shot of each ``play(count)``, in turns.
+
+    What a call costs is taken off.
+    """
     singles = tuple(clocked(play, 1) for play in plays)
     if max(singles) > LONG_CALL:
         return singles
     counts = [enough(play) for play in plays]
-    rounds = [[(clocked(play, count) - clocked(play, 1)) / (count - 1) for play, count in zip(plays, counts)]
-              for _ in range(REPEATS)]
+    rounds = [
+        [
+            (clocked(play, count) - clocked(play, 1)) / (count - 1)
+            for play, count in zip(plays, counts)
+        ]
+        for _ in range(REPEATS)
+    ]
     return tuple(float(t) for t in np.median(rounds, axis=0))
 
 
@@ -153,6 +184,13 @@ def measured(scene, truth, method):
     found = play(1)
     compiled = perf_counter() - began
     touch, rest = truth.errors(found)
-    time, = timed(play)
-    return Row(scene.name, method.name, method.setting, touch if scene.flies else np.nan, rest, time,
-               compiled)
+    (time,) = timed(play)
+    return Row(
+        scene.name,
+        method.name,
+        method.setting,
+        touch if scene.flies else np.nan,
+        rest,
+        time,
+        compiled,
+    )

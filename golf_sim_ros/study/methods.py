@@ -1,15 +1,29 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Methods of the study: integrators over their settings, the presets, scipy's, and the report's."""
+
 from functools import partial
 from typing import Callable, NamedTuple
 
 import numpy as np
 
-from ..physics import ACCURACY, METHODS, Plane, Preset
-from ..physics.baselines.report_2019 import play_report_2019
 from .measure import Stage, Truth
 from .scenes import Scene
 from .scipy_flight import fly
+from ..physics import ACCURACY, METHODS, Plane, Preset
+from ..physics.baselines.report_2019 import play_report_2019
 
 SETTINGS = {
     'euler': (1 / 50, 1 / 100, 1 / 250, 1 / 500, 1 / 1000, 1 / 2000, 1 / 5000),
@@ -17,15 +31,17 @@ SETTINGS = {
     'dormand_prince': (1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10),
 }
 SCIPY = {'RK45': (1e-3, 1e-4, 1e-6, 1e-8, 1e-10), 'DOP853': (1e-3, 1e-6, 1e-8, 1e-10, 1e-12)}
-TRUTH = Preset(METHODS['dormand_prince'].record(1e-13), ACCURACY['reference'].limits._replace(settle=1e-5))
+TRUTH = Preset(
+    METHODS['dormand_prince'].record(1e-13), ACCURACY['reference'].limits._replace(settle=1e-5)
+)
 NOT_PLAYED = ((np.nan, np.nan, np.nan),)
 
 
 class Method(NamedTuple):
     """A way to play a scene, at one of its settings.
 
-    ``ready(scene)`` gives a function that plays as many equal shots as asked, and gives the `Truth` of one;
-    ``setting`` is its step or tolerance.
+    ``ready(scene)`` gives a function that plays as many equal shots as asked, and gives the
+    `Truth` of one; ``setting`` is its step or tolerance.
     """
 
     name: str
@@ -35,14 +51,24 @@ class Method(NamedTuple):
 
 def methods(scene):
     """Methods to try on a scene."""
-    found = [Method(name, f'{METHODS[name].dial} {setting:.3g}', partial(by_preset, made(name, setting)))
-             for name, settings in SETTINGS.items() for setting in settings]
-    found += [Method('preset', name, partial(by_preset, preset)) for name, preset in ACCURACY.items()]
+    found = [
+        Method(
+            name, f'{METHODS[name].dial} {setting:.3g}', partial(by_preset, made(name, setting))
+        )
+        for name, settings in SETTINGS.items()
+        for setting in settings
+    ]
+    found += [
+        Method('preset', name, partial(by_preset, preset)) for name, preset in ACCURACY.items()
+    ]
     if isinstance(scene, Scene) and all(isinstance(shape, Plane) for shape in scene.course.ground):
         found.append(Method('report_2019', '50 Hz', lambda scene: partial(by_report, scene)))
     if scene.flies:
-        found += [Method(f'scipy {name}', f'rtol {rtol:.0e}', partial(by_scipy, name, rtol))
-                  for name, settings in SCIPY.items() for rtol in settings]
+        found += [
+            Method(f'scipy {name}', f'rtol {rtol:.0e}', partial(by_scipy, name, rtol))
+            for name, settings in SCIPY.items()
+            for rtol in settings
+        ]
     return tuple(found)
 
 
@@ -59,11 +85,17 @@ def by_preset(preset, scene):
 def by_report(scene, count):
     """Play as the report of 2019 did."""
     shot = scene.shot
-    touch, rest = play_report_2019(scene.course, np.tile(shot.velocity, (count, 1)),
-                                   np.tile(shot.spin, (count, 1)), scene.wind)
+    touch, rest = play_report_2019(
+        scene.course,
+        np.tile(shot.velocity, (count, 1)),
+        np.tile(shot.spin, (count, 1)),
+        scene.wind,
+    )
     return Truth(tuple(touch[0, :2]), (tuple(rest[0]),))
 
 
 def by_scipy(name, rtol, scene):
     """Fly with scipy up to the first touch."""
-    return lambda count: [Truth(tuple(fly(scene, name, rtol)[:2]), NOT_PLAYED) for _ in range(count)][0]
+    return lambda count: [
+        Truth(tuple(fly(scene, name, rtol)[:2]), NOT_PLAYED) for _ in range(count)
+    ][0]

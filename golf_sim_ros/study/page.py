@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Page on what accuracy costs: figures, tables, and what they mean."""
+
 import csv
 import platform
 
@@ -24,7 +38,9 @@ def write(found, folder, command):
             DRAW[part](rows, folder / f'{stem}.png')
     text = ''.join(SECTIONS[part].format(**facts(part, rows)) for part, rows in found.items())
     rows = ROWS.format(rows=tables.full_table(found['methods']))
-    head = HEAD.format(command=command, machine=platform.machine(), python=platform.python_version())
+    head = HEAD.format(
+        command=command, machine=platform.machine(), python=platform.python_version()
+    )
     (folder / 'accuracy.md').write_text(head + text + rows, encoding='utf-8')
 
 
@@ -38,19 +54,34 @@ def write_csv(rows, path):
 
 def facts(part, rows):
     """Values that a section's text leaves open, by name."""
-    made = {'methods': {'presets': tables.preset_table, 'equal': tables.equal_error_table,
-                        'exceptions': tables.exceptions, 'report': tables.report_costs},
-            'promises': {'table': tables.promise_table},
-            'effects': {'table': tables.effect_table, 'dispensable': tables.dispensable},
-            'ticks': {'table': tables.tick_table, 'costs': tables.tick_costs, 'spread': tables.spread},
-            'sizes': {'table': tables.size_table}}
+    made = {
+        'methods': {
+            'presets': tables.preset_table,
+            'equal': tables.equal_error_table,
+            'exceptions': tables.exceptions,
+            'report': tables.report_costs,
+        },
+        'promises': {'table': tables.promise_table},
+        'effects': {'table': tables.effect_table, 'dispensable': tables.dispensable},
+        'ticks': {'table': tables.tick_table, 'costs': tables.tick_costs, 'spread': tables.spread},
+        'sizes': {'table': tables.size_table},
+    }
     return {name: make(rows) for name, make in made[part].items()}
 
 
-NAMES = {'methods': 'accuracy', 'promises': 'accuracy_promises', 'effects': 'accuracy_effects',
-         'ticks': 'accuracy_ticks', 'sizes': 'accuracy_sizes'}
-DRAW = {'methods': figures.draw, 'effects': figures.draw_effects, 'ticks': figures.draw_ticks,
-        'sizes': figures.draw_sizes}
+NAMES = {
+    'methods': 'accuracy',
+    'promises': 'accuracy_promises',
+    'effects': 'accuracy_effects',
+    'ticks': 'accuracy_ticks',
+    'sizes': 'accuracy_sizes',
+}
+DRAW = {
+    'methods': figures.draw,
+    'effects': figures.draw_effects,
+    'ticks': figures.draw_ticks,
+    'sizes': figures.draw_sizes,
+}
 
 HEAD = """# What accuracy costs
 
@@ -167,4 +198,10 @@ ROWS = """
 {rows}
 """
 
-SECTIONS = {'methods': METHODS, 'promises': PROMISES, 'effects': EFFECTS, 'ticks': TICKS, 'sizes': SIZES}
+SECTIONS = {
+    'methods': METHODS,
+    'promises': PROMISES,
+    'effects': EFFECTS,
+    'ticks': TICKS,
+    'sizes': SIZES,
+}

@@ -1,14 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Errors of the presets over many random shots, against what they promise."""
+
 from functools import lru_cache, partial
 from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
-from ..physics import ACCURACY, simulate_many
 from .methods import TRUTH
 from .scenes import EFFECTS, level
+from ..physics import ACCURACY, simulate_many
 
 SHOTS = 20_000
 
@@ -42,10 +56,12 @@ def played(course, count, accuracy):
     """First touches (n, 2), along the launch and across, and rests (n, 3) of the random shots [m]."""
     told = simulate_many(course, *random_shots(count), effects=EFFECTS, accuracy=accuracy)
     side = told['carry_side']
-    return np.transpose([np.sqrt(told['carry'] ** 2 - side ** 2), side]), told['position']
+    return np.transpose([np.sqrt(told['carry'] ** 2 - side**2), side]), told['position']
 
 
 def kept(ends, name):
     """`PromiseRow` of a preset; ``ends(accuracy)`` gives what `played` does."""
-    touch, rest = (np.linalg.norm(mine - true, axis=1) for mine, true in zip(ends(name), ends(TRUTH)))
+    touch, rest = (
+        np.linalg.norm(mine - true, axis=1) for mine, true in zip(ends(name), ends(TRUTH))
+    )
     return PromiseRow(name, len(touch), float(np.median(touch)), touch.max(), rest.max())

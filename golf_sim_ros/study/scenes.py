@@ -1,5 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Scenes of the accuracy study: a shot, where, and in what wind; or several strikes of several balls."""
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Scenes of the accuracy study: a shot, where, and in what wind.
+
+Or several strikes of several balls.
+"""
+
 from math import cos, pi, sin, sqrt
 from typing import NamedTuple
 
@@ -10,7 +27,7 @@ from ..course.material_file import materials, shipped
 from ..physics import Ball, Course, Material, Mesh, Plane, Restitution, Shot
 from ..shot_input.clubs import CLUBS
 from ..shot_input.launch_monitor import velocity_and_spin
-from ..wind.gusts import GustSettings, Gusts
+from ..wind.gusts import Gusts, GustSettings
 
 # Every scene asks for the same effects, so that all of them share their machine code.
 EFFECTS = ('gravity', 'drag', 'magnus', 'spin_decay', 'turf')
@@ -84,7 +101,10 @@ def lofted(speed, degrees, backspin):
 
 
 def quick_scenes():
-    """Scenes of the quick study: a tuple of `Scene`; CourseError where a shipped material can't be read."""
+    """Scenes of the quick study: a tuple of `Scene`.
+
+    CourseError where a shipped material can't be read.
+    """
     found = materials({}, shipped()[0])
     return (
         Scene('drive in gusty wind', level(found['fairway']), club_shot('driver'), gusty()),
@@ -95,7 +115,10 @@ def quick_scenes():
 
 
 def scenes():
-    """Scenes of the full study: a tuple of `Scene` and `Game`; CourseError as in `quick_scenes`."""
+    """Scenes of the full study: a tuple of `Scene` and `Game`.
+
+    CourseError as in `quick_scenes`.
+    """
     green = materials({}, shipped()[0])['green']
     in_sand = load_course('golf_without_friends')._replace(tee=BUNKER)
     return (
@@ -120,7 +143,10 @@ def hills(triangles):
     x, y = map(np.ravel, np.meshgrid(*2 * [np.linspace(-60.0, 60.0, across)]))
     z = 0.0005 * (x * x + y * y) - 0.15 * np.cos(0.4 * x) * np.cos(0.5 * y)
     i = np.add.outer(across * np.arange(across - 1), np.arange(across - 1)).ravel()
-    faces = [np.transpose([i, i + 1, i + across + 1]), np.transpose([i, i + across + 1, i + across])]
+    faces = [
+        np.transpose([i, i + 1, i + across + 1]),
+        np.transpose([i, i + across + 1, i + across]),
+    ]
     return Course((Mesh(np.transpose([x, y, z]), np.concatenate(faces), hard(HEAVY_GOING)),))
 
 
@@ -130,20 +156,37 @@ def rack(balls):
     rows = [(row, k) for row in range(balls) for k in range(row + 1)][:balls]
     places = [(row * sqrt(3) * radius, (2 * k - row) * radius, radius) for row, k in rows]
     cloth = Material('cloth', Restitution(0.5), 0.0, 0.2, 0.2, 0.01)
-    course = Course((Plane(material=cloth),), tee=(0.0, 500.0), ball=Ball(restitution=0.9, friction=0.05))
+    course = Course(
+        (Plane(material=cloth),), tee=(0.0, 500.0), ball=Ball(restitution=0.9, friction=0.05)
+    )
     strike = (balls, (3.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    return Game(f'rack of {balls}', course, (*places, (-0.3, 0.0, radius)), (strike,),
-                ('gravity', 'ball_ball'))
+    return Game(
+        f'rack of {balls}',
+        course,
+        (*places, (-0.3, 0.0, radius)),
+        (strike,),
+        ('gravity', 'ball_ball'),
+    )
 
 
 def hole():
     """A `Game`: a drive, a pitch and two putts on `links` until it is holed, in wind."""
     course = load_course('links')
-    shots = ((club_shot('driver'), 4.0), (lofted(32.0, 28.0, 700.0), 8.0), (Shot((4.0, 0.0, 0.0)), 0.5),
-             (Shot((1.6, 0.0, 0.0)), -21.0))
+    shots = (
+        (club_shot('driver'), 4.0),
+        (lofted(32.0, 28.0, 700.0), 8.0),
+        (Shot((4.0, 0.0, 0.0)), 0.5),
+        (Shot((1.6, 0.0, 0.0)), -21.0),
+    )
     strikes = tuple((0, *turned(shot, degrees)) for shot, degrees in shots)
-    return Game('a whole hole on links', course, (course.tee,), strikes,
-                (*EFFECTS, 'wind', 'water', 'foliage'), (-2.0, -3.0, 0.0))
+    return Game(
+        'a whole hole on links',
+        course,
+        (course.tee,),
+        strikes,
+        (*EFFECTS, 'wind', 'water', 'foliage'),
+        (-2.0, -3.0, 0.0),
+    )
 
 
 def turned(shot, degrees):

@@ -1,10 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Flight by scipy's solve_ivp, as one would write it without this package: a yardstick."""
+
 from math import log, sqrt
 
 from scipy.integrate import solve_ivp
 
-from ..physics.effects import Scene, choose
+from ..physics.effects import choose, Scene
 from ..physics.effects.drag import drag_coefficient
 from ..physics.effects.magnus import lift_per_ratio
 from ..physics.simulation import checked_gusts
@@ -23,13 +37,21 @@ def fly(scene, method, rtol):
 
     def height(time, state):
         return state[2] - radius
+
     height.terminal, height.direction = True, -1
 
     state = [0.0, 0.0, radius, *scene.shot.velocity, *scene.shot.spin]
     ends = [*gusts[1:, 0], LONGEST]
     for (begin, *wind), end in zip(gusts, ends):
-        part = solve_ivp(rates(records, wind, radius), (begin, end), state, method, rtol=rtol,
-                         atol=rtol, events=height)
+        part = solve_ivp(
+            rates(records, wind, radius),
+            (begin, end),
+            state,
+            method,
+            rtol=rtol,
+            atol=rtol,
+            events=height,
+        )
         if len(part.t_events[0]):
             return part.y_events[0][-1]
         state = part.y[:, -1]
@@ -55,7 +77,16 @@ def rates(records, wind, radius):
         ss = radius * radius * (cx * cx + cy * cy + cz * cz) / (vv * vv)
         lift = magnus.push * radius * cl(magnus.law, ss, rr)
         d = -decay.rate * speed
-        return (vx, vy, vz, k * ux + lift * cx, k * uy + lift * cy, k * uz + lift * cz - g,
-                d * wx, d * wy, d * wz)
+        return (
+            vx,
+            vy,
+            vz,
+            k * ux + lift * cx,
+            k * uy + lift * cy,
+            k * uz + lift * cz - g,
+            d * wx,
+            d * wy,
+            d * wz,
+        )
 
     return right_hand_side

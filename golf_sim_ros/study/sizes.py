@@ -1,12 +1,26 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Growth of the time with balls, triangles and contacts."""
+
 from functools import partial
 from typing import NamedTuple
 
+from .measure import Stage, timed
+from .scenes import club_shot, EFFECTS, Game, hills, level, lofted
 from ..physics import Ball, Course, Material, Plane, Restitution
 from ..physics.mechanics.vector import ZERO
-from .measure import Stage, timed
-from .scenes import EFFECTS, Game, club_shot, hills, level, lofted
 
 BALLS = (1, 3, 10, 30, 100, 300)
 TRIANGLES = (200, 2_000, 20_000, 100_000)
@@ -38,11 +52,20 @@ def grown(what, count, game):
 
 
 def volley(count, material):
-    """A `Game`: as many 7 irons, hit at once from one long tee; they fly, bounce and roll side by side."""
+    """A `Game`: as many 7 irons, hit at once from one long tee.
+
+    They fly, bounce and roll side by side.
+    """
     places = tuple((0.0, APART * i) for i in range(count))
     strikes = tuple((i, *club_shot('7i')) for i in range(count))
-    return Game('volley', level(material)._replace(tee=AWAY), places, strikes,
-                (*EFFECTS, 'ball_ball'), together=True)
+    return Game(
+        'volley',
+        level(material)._replace(tee=AWAY),
+        places,
+        strikes,
+        (*EFFECTS, 'ball_ball'),
+        together=True,
+    )
 
 
 def rolling(triangles):
@@ -57,5 +80,10 @@ def row(contacts):
     course = Course((Plane(material=floor),), tee=AWAY, ball=Ball(restitution=0.9, friction=0.0))
     width = 2.0 * Ball().radius
     places = tuple((width * i, 0.0, 0.5 * width) for i in range(contacts))
-    return Game('row', course, (*places, (-0.1, 0.0, 0.5 * width)), ((contacts, (1.5, 0.0, 0.0), ZERO),),
-                ('gravity', 'ball_ball'))
+    return Game(
+        'row',
+        course,
+        (*places, (-0.1, 0.0, 0.5 * width)),
+        ((contacts, (1.5, 0.0, 0.0), ZERO),),
+        ('gravity', 'ball_ball'),
+    )

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Tables of the page on what accuracy costs."""
+
 from math import isfinite
 
 import numpy as np
@@ -18,16 +32,25 @@ def seconds_at(rows, method, level):
 
 def equal_error_table(rows):
     """Markdown table: time at equal error of each integrator, over that of Dormand-Prince."""
-    lines = ['| scene | error at most | Dormand-Prince | RK4 | Euler | scipy RK45 | scipy DOP853 |',
-             '|---|---|---|---|---|---|---|']
+    lines = [
+        '| scene | error at most | Dormand-Prince | RK4 | Euler | scipy RK45 | scipy DOP853 |',
+        '|---|---|---|---|---|---|---|',
+    ]
     for scene in dict.fromkeys(row.scene for row in rows if isfinite(row.touch_error)):
         own = [row for row in rows if row.scene == scene]
         for level in LEVELS:
             base = seconds_at(own, 'dormand_prince', level)
             if base:
-                others = (seconds_at(own, m, level) for m in ('rk4', 'euler', 'scipy RK45', 'scipy DOP853'))
+                others = (
+                    seconds_at(own, m, level)
+                    for m in ('rk4', 'euler', 'scipy RK45', 'scipy DOP853')
+                )
                 cells = ('-' if t is None else f'{t / base:.3g} x' for t in others)
-                lines.append(f'| {scene} | {level:.0e} m | {base * 1e6:.0f} us | ' + ' | '.join(cells) + ' |')
+                lines.append(
+                    f'| {scene} | {level:.0e} m | {base * 1e6:.0f} us | '
+                    + ' | '.join(cells)
+                    + ' |'
+                )
     return '\n'.join(lines)
 
 
@@ -41,42 +64,59 @@ def exceptions(rows):
             for other, label in (('rk4', 'RK4'), ('euler', 'Euler')):
                 time = seconds_at(own, other, level)
                 if base and time and time < base:
-                    found.append(f'- {scene}, {level:.0e} m: {label} took {time / base:.2f} of the time.')
+                    found.append(
+                        f'- {scene}, {level:.0e} m: {label} took {time / base:.2f} of the time.'
+                    )
     return '\n'.join(found) or 'There was none in this run.'
 
 
 def full_table(rows):
     """Markdown table of all rows."""
-    lines = ['| scene | method | setting | first touch off by | rest off by | time of a shot | compiling |',
-             '|---|---|---|---|---|---|---|']
+    lines = [
+        '| scene | method | setting | first touch off by | rest off by | time of a shot | compiling |',
+        '|---|---|---|---|---|---|---|',
+    ]
     for row in rows:
         errors = (f'{e:.1e} m' if isfinite(e) else '-' for e in (row.touch_error, row.rest_error))
-        lines.append(f'| {row.scene} | {row.method} | {row.setting} | ' + ' | '.join(errors)
-                     + f' | {row.time * 1e6:.1f} us | {row.compiled:.1f} s |')
+        lines.append(
+            f'| {row.scene} | {row.method} | {row.setting} | '
+            + ' | '.join(errors)
+            + f' | {row.time * 1e6:.1f} us | {row.compiled:.1f} s |'
+        )
     return '\n'.join(lines)
 
 
 def preset_table(rows):
     """Markdown table of the presets: promise, worst of the study, time."""
-    lines = ['| preset | promises, first touch and rest | worst here | time of a shot | for |',
-             '|---|---|---|---|---|']
+    lines = [
+        '| preset | promises, first touch and rest | worst here | time of a shot | for |',
+        '|---|---|---|---|---|',
+    ]
     for name, preset in ACCURACY.items():
         own = [row for row in rows if row.method == 'preset' and row.setting == name]
-        touch, rest = (np.nanmax([getattr(r, e) for r in own]) for e in ('touch_error', 'rest_error'))
+        touch, rest = (
+            np.nanmax([getattr(r, e) for r in own]) for e in ('touch_error', 'rest_error')
+        )
         times = [row.time * 1e6 for row in own]
-        lines.append(f'| {name} | {preset.touch:g} m, {preset.rest:g} m | {touch:.1e} m, {rest:.1e} m '
-                     f'| {min(times):.0f} to {max(times):.0f} us | {preset.use} |')
+        lines.append(
+            f'| {name} | {preset.touch:g} m, {preset.rest:g} m | {touch:.1e} m, {rest:.1e} m '
+            f'| {min(times):.0f} to {max(times):.0f} us | {preset.use} |'
+        )
     return '\n'.join(lines)
 
 
 def promise_table(rows):
     """Markdown table: promises of the presets, and what many shots showed."""
-    lines = ['| preset | shots | first touch: median | worst | promised | rest: worst | promised |',
-             '|---|---|---|---|---|---|---|']
+    lines = [
+        '| preset | shots | first touch: median | worst | promised | rest: worst | promised |',
+        '|---|---|---|---|---|---|---|',
+    ]
     for row in rows:
         preset = ACCURACY[row.accuracy]
-        lines.append(f'| {row.accuracy} | {row.shots:,} | {row.touch_median:.1e} m | {row.touch_worst:.1e} m '
-                     f'| {preset.touch:g} m | {row.rest_worst:.1e} m | {preset.rest:g} m |')
+        lines.append(
+            f'| {row.accuracy} | {row.shots:,} | {row.touch_median:.1e} m | {row.touch_worst:.1e} m '
+            f'| {preset.touch:g} m | {row.rest_worst:.1e} m | {preset.rest:g} m |'
+        )
     return '\n'.join(lines)
 
 
@@ -85,18 +125,24 @@ def report_costs(rows):
     lines = []
     for row in rows:
         if row.method == 'report_2019':
-            touch = f'first touch {row.touch_error:.2g} m off, ' if isfinite(row.touch_error) else ''
+            touch = (
+                f'first touch {row.touch_error:.2g} m off, ' if isfinite(row.touch_error) else ''
+            )
             lines.append(f'- {row.scene}: {touch}rest {row.rest_error:.2g} m off.')
     return '\n'.join(lines)
 
 
 def effect_table(rows):
     """Markdown table: what each effect costs, and how far off the shot ends without it."""
-    lines = ['| scene | without | first touch elsewhere by | rest elsewhere by | time saved |',
-             '|---|---|---|---|---|']
+    lines = [
+        '| scene | without | first touch elsewhere by | rest elsewhere by | time saved |',
+        '|---|---|---|---|---|',
+    ]
     for row in rows:
         moved = (f'{e:.2g} m' if isfinite(e) else '-' for e in (row.touch_moved, row.rest_moved))
-        lines.append(f'| {row.scene} | {row.effect} | ' + ' | '.join(moved) + f' | {row.saved:.0f} % |')
+        lines.append(
+            f'| {row.scene} | {row.effect} | ' + ' | '.join(moved) + f' | {row.saved:.0f} % |'
+        )
     return '\n'.join(lines)
 
 
@@ -106,18 +152,30 @@ def dispensable(rows):
     for scene in dict.fromkeys(row.scene for row in rows):
         own = [row for row in rows if row.scene == scene and row.rest_moved <= CENTIMETRE]
         if own:
-            lines.append(f'- {scene}: ' + ', '.join(f'{row.effect} ({row.rest_moved:.1g} m)' for row in own))
+            lines.append(
+                f'- {scene}: ' + ', '.join(f'{row.effect} ({row.rest_moved:.1g} m)' for row in own)
+            )
     return '\n'.join(lines)
 
 
 def tick_table(rows):
     """Markdown table: error over the tick rate, a line a scene and an accuracy."""
     rates = list(dict.fromkeys(row.rate for row in rows))
-    lines = ['| scene | accuracy | ' + ' | '.join(f'{rate:g} Hz' for rate in rates) + ' |',
-             '|---|---|' + '---|' * len(rates)]
+    lines = [
+        '| scene | accuracy | ' + ' | '.join(f'{rate:g} Hz' for rate in rates) + ' |',
+        '|---|---|' + '---|' * len(rates),
+    ]
     for scene, accuracy in dict.fromkeys((row.scene, row.accuracy) for row in rows):
-        own = {row.rate: row.rest_error for row in rows if (row.scene, row.accuracy) == (scene, accuracy)}
-        lines.append(f'| {scene} | {accuracy} | ' + ' | '.join(f'{own[rate]:.2e} m' for rate in rates) + ' |')
+        own = {
+            row.rate: row.rest_error
+            for row in rows
+            if (row.scene, row.accuracy) == (scene, accuracy)
+        }
+        lines.append(
+            f'| {scene} | {accuracy} | '
+            + ' | '.join(f'{own[rate]:.2e} m' for rate in rates)
+            + ' |'
+        )
     return '\n'.join(lines)
 
 
@@ -141,6 +199,8 @@ def tick_costs(rows):
 def size_table(rows):
     """Markdown table: time of one play, and for each of what is counted."""
     lines = ['| what | how many | time of a play | for each |', '|---|---|---|---|']
-    lines += [f'| {row.what} | {row.count} | {1e6 * row.time:.0f} us | {1e6 * row.time / row.count:.3g} us |'
-              for row in rows]
+    lines += [
+        f'| {row.what} | {row.count} | {1e6 * row.time:.0f} us | {1e6 * row.time / row.count:.3g} us |'
+        for row in rows
+    ]
     return '\n'.join(lines)

@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Whether the error depends on the tick rate, and what ticks cost."""
+
 from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
-from ..physics import ACCURACY
 from .measure import Stage, ticked
-from .methods import TRUTH, made
+from .methods import made, TRUTH
+from ..physics import ACCURACY
 
 RATES = (10.0, 50.0, 250.0, 1000.0, 4000.0)  # Hz
 STEPPED = 'semi-implicit Euler, a step a tick'
@@ -16,8 +30,8 @@ STEPPED = 'semi-implicit Euler, a step a tick'
 class TickRow(NamedTuple):
     """A scene played tick by tick, at `rate` [Hz] and `accuracy`.
 
-    Errors [m] of first touch and rest; ``time`` [s] that a simulated second takes, from Python; not a
-    number for a step a tick, which is only there to compare.
+    Errors [m] of first touch and rest; ``time`` [s] that a simulated second takes, from Python;
+    not a number for a step a tick, which is only there to compare.
     """
 
     scene: str

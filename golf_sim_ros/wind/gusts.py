@@ -1,10 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Gusts: wind as a function of time.
 
 Every gust and every step of the turbulence has a random generator of its own, named by seed and
 number. So the wind at a time depends on the seed, the settings and that time alone: it may be
 asked in any order, before time zero too, and a clock that starts again finds the same gusts again.
 """
+
 from functools import lru_cache
 from itertools import accumulate
 from math import cos, exp, floor, pi, sin, sqrt
@@ -13,11 +27,11 @@ from typing import NamedTuple
 import numpy as np
 
 # Eddies of 60 m (50 to 120 m are usual 10 m above open country) carried by 4 m/s pass in 15 s.
-TURBULENCE_TIME = 15.0       # s, correlation time of the turbulence
+TURBULENCE_TIME = 15.0  # s, correlation time of the turbulence
 
-_GUSTS, _TURBULENCE = 0, 1   # which of a seed's two families of generators
-_STEPS = 100                 # steps of the turbulence in a correlation time
-_BLOCK = 40 * _STEPS         # after these steps only exp(-40) of a value is left
+_GUSTS, _TURBULENCE = 0, 1  # which of a seed's two families of generators
+_STEPS = 100  # steps of the turbulence in a correlation time
+_BLOCK = 40 * _STEPS  # after these steps only exp(-40) of a value is left
 
 
 class GustSettings(NamedTuple):
@@ -61,7 +75,8 @@ class Gusts:
         self.settings = settings
         self.seed = seed
         self._changed_at = 0.0
-        self._left_over = (0.0, 0.0)   # how far the wind was from the new settings' when they changed
+        # how far the wind was from the new settings' when they changed
+        self._left_over = (0.0, 0.0)
 
     def wind(self, time):
         """Velocity of the wind (x, y, z) [m/s] at `time` [s]."""
@@ -131,7 +146,10 @@ def _at_step(seed, step):
 
 @lru_cache(maxsize=4)
 def _walk(seed, block):
-    """Values of the processes at the steps of a `block`; they begin one block earlier, long forgotten."""
+    """Values of the processes at the steps of a `block`.
+
+    They begin one block earlier, long forgotten.
+    """
     h = 1.0 / _STEPS
     kept, kick = exp(-h), sqrt(1.0 - exp(-2.0 * h))
     kicks = kick * np.concatenate([_noise(seed, block - 1), _noise(seed, block)])

@@ -1,10 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The clubs and their names."""
+
 from math import degrees, pi
 
+from golf_sim_ros.shot_input.clubs import club, CLUBS, TOUR_AVERAGES
 import pytest
-
-from golf_sim_ros.shot_input.clubs import CLUBS, TOUR_AVERAGES, club
 
 
 def test_the_driver_is_the_average_of_the_tour():
@@ -23,10 +36,22 @@ def test_from_the_longest_club_to_the_shortest_speed_and_carry_fall_and_spin_ris
     assert carries == sorted(carries, reverse=True)
 
 
-@pytest.mark.parametrize('text, name', [
-    ('driver', 'driver'), ('Driver', 'driver'), ('7i', '7i'), ('7-iron', '7i'), ('7 Iron', '7i'),
-    ('3w', '3w'), ('3-wood', '3w'),
-    ('PW', 'pw'), ('pitching wedge', 'pw'), ('putt', 'putter'), ('hybrid', 'hybrid')])
+@pytest.mark.parametrize(
+    'text, name',
+    [
+        ('driver', 'driver'),
+        ('Driver', 'driver'),
+        ('7i', '7i'),
+        ('7-iron', '7i'),
+        ('7 Iron', '7i'),
+        ('3w', '3w'),
+        ('3-wood', '3w'),
+        ('PW', 'pw'),
+        ('pitching wedge', 'pw'),
+        ('putt', 'putter'),
+        ('hybrid', 'hybrid'),
+    ],
+)
 def test_clubs_are_found_as_people_write_them(text, name):
     assert club(text) is CLUBS[name]
 

@@ -1,10 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """compile_physics compiles what is not compiled, or says in one line why it cannot."""
-import pytest
 
 from golf_sim_ros.cli.compile_physics import main
 from golf_sim_ros.physics.engine.engines import missing
 from golf_sim_ros.physics.jit import build, cache
+import pytest
 
 
 @pytest.mark.skipif(bool(missing()), reason=missing() or 'numba is here')
@@ -18,7 +31,9 @@ def test_without_numba_it_says_how_to_get_it(capsys, monkeypatch):
     monkeypatch.setattr(build, 'missing', lambda: 'numba is not installed: pip install numba')
     assert main([]) == 1
     told = capsys.readouterr()
-    assert told.err.splitlines()[-1] == 'compile_physics: numba is not installed: pip install numba'
+    assert (
+        told.err.splitlines()[-1] == 'compile_physics: numba is not installed: pip install numba'
+    )
 
 
 def test_an_unknown_course_is_one_line(capsys):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A short run of tools/fuzz_files.py, and that it finds what is wrong."""
+
 from pathlib import Path
 import subprocess
 import sys
@@ -30,11 +44,15 @@ def test_mutated_files_are_read_or_refused_with_one_line(kind):
 def outcome(monkeypatch):
     """What is said of a case that does something."""
     monkeypatch.syspath_prepend(str(TOOLS))
-    import fuzz_reader
     import signal
+
+    import fuzz_reader
+
     before = signal.signal(signal.SIGPROF, fuzz_reader.stop)
     monkeypatch.setattr(fuzz_reader, 'LONGEST', 0.1)
-    yield lambda read: fuzz_reader.outcome(lambda rng, place: (read, KeyError), None, None, 'meshes')['fault']
+    yield lambda read: fuzz_reader.outcome(
+        lambda rng, place: (read, KeyError), None, None, 'meshes'
+    )['fault']
     signal.signal(signal.SIGPROF, before)
 
 
@@ -51,6 +69,7 @@ def forever():
 
 def test_faults_are_found(outcome):
     import warnings
+
     assert outcome(lambda: None) == '' and outcome(lambda: refuse('a line')) == ''
     assert outcome(lambda: 1 / 0).startswith('ZeroDivisionError in ')
     assert outcome(lambda: [].missing).startswith('AttributeError')

@@ -1,13 +1,26 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What a launch monitor shows becomes the right velocity and spin."""
+
 from math import atan2, cos, degrees, hypot, pi, radians, sin
 
-import numpy as np
-import pytest
+from golf_sim_ros.shot_input.launch_monitor import Launch, parted, velocity_and_spin
 from hypothesis import given
 from hypothesis.strategies import floats
-
-from golf_sim_ros.shot_input.launch_monitor import Launch, parted, velocity_and_spin
+import numpy as np
+import pytest
 
 ANGLES = floats(-pi, pi)
 SPINS = floats(-1000.0, 1000.0)
@@ -51,7 +64,8 @@ def test_a_spin_axis_tilted_to_the_right_curves_to_the_right_and_still_lifts():
 
 @given(ANGLES, floats(-1.5, 1.5), ANGLES, SPINS, SPINS)
 def test_the_spin_has_the_size_of_its_parts_and_is_perpendicular_to_the_velocity(
-        heading, launch, azimuth, backspin, sidespin):
+    heading, launch, azimuth, backspin, sidespin
+):
     velocity, spin = velocity_and_spin(Launch(70.0, launch, azimuth, backspin, sidespin), heading)
     assert np.linalg.norm(velocity) == pytest.approx(70.0)
     assert np.linalg.norm(spin) == pytest.approx(hypot(backspin, sidespin), abs=1e-9)
@@ -61,13 +75,17 @@ def test_the_spin_has_the_size_of_its_parts_and_is_perpendicular_to_the_velocity
 @given(ANGLES, floats(-1.5, 1.5), ANGLES, SPINS, SPINS)
 def test_turning_the_target_turns_the_shot(heading, launch, azimuth, backspin, sidespin):
     shot = Launch(70.0, launch, azimuth, backspin, sidespin)
-    turn = np.array([[cos(heading), -sin(heading), 0.0], [sin(heading), cos(heading), 0.0], [0.0, 0.0, 1.0]])
+    turn = np.array(
+        [[cos(heading), -sin(heading), 0.0], [sin(heading), cos(heading), 0.0], [0.0, 0.0, 1.0]]
+    )
     for straight, turned in zip(velocity_and_spin(shot), velocity_and_spin(shot, heading)):
         assert turn @ straight == pytest.approx(turned, abs=1e-9)
 
 
 @given(floats(-1.5, 1.5), ANGLES, SPINS, SPINS)
-def test_a_shot_with_azimuth_and_sidespin_reversed_is_the_mirror_image(launch, azimuth, backspin, sidespin):
+def test_a_shot_with_azimuth_and_sidespin_reversed_is_the_mirror_image(
+    launch, azimuth, backspin, sidespin
+):
     velocity, spin = velocity_and_spin(Launch(70.0, launch, azimuth, backspin, sidespin))
     mirrored = velocity_and_spin(Launch(70.0, launch, -azimuth, backspin, -sidespin))
     # Spin is a pseudovector: its part across the mirror stays, the others turn round.

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Recorded play runs again to the bit, and what does not is found."""
+
 import json
 from math import nextafter
 
@@ -34,8 +48,10 @@ def test_all_shots_are_identical(told, tmp_path, capsys, storage):
     assert main([str(bag(tmp_path / 'bag', told, storage))]) == 0
     captured = capsys.readouterr()
     assert captured.out.endswith(f'{STRIKES} of {STRIKES} identical\n') and not captured.err
-    assert lines(captured) == [f'shot {number} ({ball}): identical' for number, ball in
-                               ((1, 'red'), (2, 'blue'), (4, 'blue'), (5, 'red'), (6, 'red'))]
+    assert lines(captured) == [
+        f'shot {number} ({ball}): identical'
+        for number, ball in ((1, 'red'), (2, 'blue'), (4, 'blue'), (5, 'red'), (6, 'red'))
+    ]
 
 
 def ulp(message, field):
@@ -53,22 +69,33 @@ def flying(message):
     return message.twist.linear.z < -1.0
 
 
-@pytest.mark.parametrize('topic, number, field', [
-    ('red/pose', 'pose.position.z', 'position'), ('red/twist', 'twist.linear.x', 'velocity'),
-    ('red/twist', 'twist.angular.z', 'spin')])
-def test_a_bit_of_a_pose_or_twist_is_found_at_its_tick(told, tmp_path, capsys, topic, number, field):
+@pytest.mark.parametrize(
+    'topic, number, field',
+    [
+        ('red/pose', 'pose.position.z', 'position'),
+        ('red/twist', 'twist.linear.x', 'velocity'),
+        ('red/twist', 'twist.angular.z', 'spin'),
+    ],
+)
+def test_a_bit_of_a_pose_or_twist_is_found_at_its_tick(
+    told, tmp_path, capsys, topic, number, field
+):
     def change(message):
         if flying(message):
             ulp(message, number)
             stamps.append(message.header.stamp)
             return True
         return False
+
     stamps = []
     assert main([str(bag(tmp_path / 'bag', changed(told, change, topic)))]) == 1
     first, *others = lines(capsys.readouterr())
     start = told_start(told)
     tick = round((stamps[0].sec * 10**9 + stamps[0].nanosec - start) * 250e-9)
-    assert first.startswith(f'shot 1 (red): differs first at tick {tick}, ') and f'in {field}: ' in first
+    assert (
+        first.startswith(f'shot 1 (red): differs first at tick {tick}, ')
+        and f'in {field}: ' in first
+    )
     assert all(line.endswith('identical') for line in others)
 
 
@@ -76,11 +103,14 @@ def told_start(told):
     return opened(told[0][3].data)['start']
 
 
-@pytest.mark.parametrize('topic, old_and_new, field', [
-    ('collisions', ('"spin_after": [', '"spin_after": [1e-9, '), 'spin_after of a collision'),
-    ('shot/result', ('"apex": ', '"apex": 1'), 'apex of the result'),
-    ('shot/result', ('"lie": "', '"lie": "x'), 'lie of the result'),
-])
+@pytest.mark.parametrize(
+    'topic, old_and_new, field',
+    [
+        ('collisions', ('"spin_after": [', '"spin_after": [1e-9, '), 'spin_after of a collision'),
+        ('shot/result', ('"apex": ', '"apex": 1'), 'apex of the result'),
+        ('shot/result', ('"lie": "', '"lie": "x'), 'lie of the result'),
+    ],
+)
 def test_a_changed_collision_or_result_is_found(told, tmp_path, capsys, topic, old_and_new, field):
     path = bag(tmp_path / 'bag', changed(told, replaced(*old_and_new), topic))
     assert main([str(path)]) == 1
@@ -91,6 +121,7 @@ def test_a_changed_collision_or_result_is_found(told, tmp_path, capsys, topic, o
 
 def reseal(kind, change):
     """A change of an entry of the journal that its checksum does not tell."""
+
     def edit(message):
         entry = {key: value for key, value in opened(message.data).items() if key != 'crc32'}
         if entry['kind'] != kind:
@@ -98,13 +129,17 @@ def reseal(kind, change):
         change(entry)
         message.data = sealed(entry)
         return True
+
     return edit
 
 
 def test_another_strike_in_the_journal_gives_another_play(told, tmp_path, capsys):
     def harder(entry):
         entry['velocity'][0] = nextafter(entry['velocity'][0], 1e9)
-    path = bag(tmp_path / 'bag', changed(without(told, 'red/shot'), reseal('strike', harder), 'journal'))
+
+    path = bag(
+        tmp_path / 'bag', changed(without(told, 'red/shot'), reseal('strike', harder), 'journal')
+    )
     assert main([str(path)]) == 1
     first = lines(capsys.readouterr())[0]
     assert first.startswith('shot 1 (red): differs first at tick ') and 'in position: ' in first
@@ -113,6 +148,7 @@ def test_another_strike_in_the_journal_gives_another_play(told, tmp_path, capsys
 def test_another_rest_in_the_journal_is_found(told, tmp_path, capsys):
     def further(entry):
         entry['state']['position'][1] += 1e-9
+
     path = bag(tmp_path / 'bag', changed(told, reseal('rest', further), 'journal'))
     assert main([str(path)]) == 1
     assert 'in position of the rest: ' in capsys.readouterr().out
@@ -121,6 +157,7 @@ def test_another_rest_in_the_journal_is_found(told, tmp_path, capsys):
 def test_an_input_that_does_not_fit_is_found(told, tmp_path, capsys):
     def lonely(entry):
         entry['balls'] = {'red': entry['balls']['red']}
+
     path = bag(tmp_path / 'other', changed(told, reseal('strike', lonely), 'journal'))
     assert main([str(path)]) == 1
     assert "'blue'" in lines(capsys.readouterr())[0]
@@ -130,14 +167,17 @@ def test_a_strike_that_was_sent_otherwise_is_found(told, tmp_path, capsys):
     def change(message):
         ulp(message, 'linear.y')
         return True
+
     assert main([str(bag(tmp_path / 'bag', changed(told, change, 'red/shot')))]) == 1
     first, *others = lines(capsys.readouterr())
     assert 'in velocity sent: ' in first and all(line.endswith('identical') for line in others)
 
 
 def test_what_was_told_before_the_first_strike_in_the_bag_does_not_count(told, tmp_path, capsys):
-    strikes = [i for i, one in enumerate(told) if one[0] == '/journal' and '"strike"' in one[3].data]
-    late = [told[0], *without(told[:strikes[2]], 'journal', 'pose', 'twist'), *told[strikes[2]:]]
+    strikes = [
+        i for i, one in enumerate(told) if one[0] == '/journal' and '"strike"' in one[3].data
+    ]
+    late = [told[0], *without(told[: strikes[2]], 'journal', 'pose', 'twist'), *told[strikes[2] :]]
     assert main([str(bag(tmp_path / 'bag', late))]) == 0
     assert capsys.readouterr().out.endswith('3 of 3 identical\n')
 
@@ -155,8 +195,10 @@ def test_a_recording_that_ends_in_a_shot_is_compared_as_far_as_it_goes(told, tmp
 
 
 def test_a_shot_with_missing_entries_is_named_and_the_others_run(told, tmp_path, capsys):
-    gust = next(i for i, one in enumerate(told) if one[0] == '/journal' and '"kind": "wind"' in one[3].data)
-    assert main([str(bag(tmp_path / 'bag', told[:gust] + told[gust + 1:]))]) == 1
+    gust = next(
+        i for i, one in enumerate(told) if one[0] == '/journal' and '"kind": "wind"' in one[3].data
+    )
+    assert main([str(bag(tmp_path / 'bag', told[:gust] + told[gust + 1 :]))]) == 1
     first, *others = lines(capsys.readouterr())
     assert first.startswith('shot 1 (red): journal entries 2 to 2 are missing')
     assert all(line.endswith('identical') for line in others)
@@ -169,14 +211,26 @@ def digest_changed(entry):
     entry['course']['digest'] = '0' * 64
 
 
-@pytest.mark.parametrize('change, reason', [
-    (lambda told: without(told, 'journal'), 'no strike is in a journal'),
-    (lambda told: [('/chatter', TEXT, 1, made(TEXT, data='hello'))], 'no play'),
-    (lambda told: changed(told, replaced('"spin": [3.0', '"spin": [3.1'), 'journal'), 'strike was changed'),
-    (lambda told: changed(told, reseal('config', digest_changed), 'journal'), 'is not the one'),
-    (lambda told: told[1:], 'the beginning of its journal'),
-], ids=['no journal', 'foreign', 'a byte of a strike', 'another course', 'no configuration'])
-def test_what_cannot_be_run_again_is_one_line_and_exit_code_1(told, tmp_path, capsys, change, reason):
+@pytest.mark.parametrize(
+    'change, reason',
+    [
+        (lambda told: without(told, 'journal'), 'no strike is in a journal'),
+        (lambda told: [('/chatter', TEXT, 1, made(TEXT, data='hello'))], 'no play'),
+        (
+            lambda told: changed(told, replaced('"spin": [3.0', '"spin": [3.1'), 'journal'),
+            'strike was changed',
+        ),
+        (
+            lambda told: changed(told, reseal('config', digest_changed), 'journal'),
+            'is not the one',
+        ),
+        (lambda told: told[1:], 'the beginning of its journal'),
+    ],
+    ids=['no journal', 'foreign', 'a byte of a strike', 'another course', 'no configuration'],
+)
+def test_what_cannot_be_run_again_is_one_line_and_exit_code_1(
+    told, tmp_path, capsys, change, reason
+):
     assert main([str(bag(tmp_path / 'bag', change(told)))]) == 1
     captured = capsys.readouterr()
     assert captured.err.startswith('resimulate: ') and captured.err.count('\n') == 1
@@ -222,9 +276,24 @@ def test_the_accuracy_of_the_play_itself_moves_nothing(told, tmp_path, capsys):
 
 
 def test_json_of_the_journal_has_the_keys_of_a_strike(told):
-    strike = next(opened(one[3].data) for one in told if one[0] == '/journal' and '"strike"' in one[3].data)
-    assert list(strike) == ['entry', 'kind', 'tick', 'shot', 'ball', 'velocity', 'spin', 'time', 'clock',
-                            'engine', 'accuracy', 'wind', 'balls']
+    strike = next(
+        opened(one[3].data) for one in told if one[0] == '/journal' and '"strike"' in one[3].data
+    )
+    assert list(strike) == [
+        'entry',
+        'kind',
+        'tick',
+        'shot',
+        'ball',
+        'velocity',
+        'spin',
+        'time',
+        'clock',
+        'engine',
+        'accuracy',
+        'wind',
+        'balls',
+    ]
     assert list(strike['balls']) == ['red', 'blue']
     assert json.loads(sealed(strike)) == {**strike, 'crc32': json.loads(sealed(strike))['crc32']}
 
@@ -232,6 +301,7 @@ def test_json_of_the_journal_has_the_keys_of_a_strike(told):
 def test_who_runs_it_again_on_something_else_is_told(told, tmp_path, capsys):
     def older(entry):
         entry['made_with']['physics'] = 'older'
+
     path = bag(tmp_path / 'bag', changed(told, reseal('config', older), 'journal'))
     assert main([str(path)]) == 0
     assert 'note: physics older then, ' in capsys.readouterr().out

@@ -1,8 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Zones and water with a cut, as fairways around bunkers and ponds around islands; and rounds."""
+
 from golf_sim_ros.course import CourseError, load_course, load_round
 from golf_sim_ros.drawing.zone_triangles import flat, in_region, last_zone
-from golf_sim_ros.physics import Shot, World, ground_height, simulate
+from golf_sim_ros.physics import ground_height, Shot, simulate, World
 from golf_sim_ros.physics.geometry import polygon
 from golf_sim_ros.physics.geometry.zone import Zone
 from golf_sim_ros.physics.jit import entry
@@ -34,6 +48,7 @@ water:
 @pytest.fixture
 def load(tmp_path):
     """Write a course file and load it."""
+
     def load(content):
         (tmp_path / 'links.yaml').write_text(content)
         return load_course(tmp_path / 'links.yaml')
@@ -52,17 +67,28 @@ def test_a_zone_leaves_its_cuts_as_they_are(load):
     places = np.random.default_rng(1).uniform(-30, 30, (400, 2))
     for x, y in places:
         assert ground_height(course, x, y)[1] == ('fairway' if wanted(x, y) else 'rough')
-    assert (last_zone(course.zones, *places.T) == [0 if wanted(x, y) else -1 for x, y in places]).all()
+    assert (
+        last_zone(course.zones, *places.T) == [0 if wanted(x, y) else -1 for x, y in places]
+    ).all()
 
 
 def test_a_cut_shows_the_zone_below_and_lines_where_it_begins(load):
     course = load(
-        COURSE.replace('zones:', f'zones:\n  - {{material: green, polygon: {list(map(list, BOX))}}}'))
-    assert [ground_height(course, x, 0)[1] for x in (0, 15, 25, 35)] == ['green', 'fairway', 'green', 'rough']
+        COURSE.replace(
+            'zones:', f'zones:\n  - {{material: green, polygon: {list(map(list, BOX))}}}'
+        )
+    )
+    assert [ground_height(course, x, 0)[1] for x in (0, 15, 25, 35)] == [
+        'green',
+        'fairway',
+        'green',
+        'rough',
+    ]
     roll = simulate(course, Shot((16.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
     whole = course._replace(zones=tuple(zone._replace(cut=()) for zone in course.zones))
     slow = simulate(whole, Shot((16.0, 0.0, 0.0), (0.0, 0.0, 0.0)))
-    assert -10 < slow.result.position[0] < roll.result.position[0] - 0.5  # the green within is the faster
+    # the green within is the faster
+    assert -10 < slow.result.position[0] < roll.result.position[0] - 0.5
 
 
 def area(pieces):
@@ -74,8 +100,12 @@ def area(pieces):
 
 def test_pictures_and_markers_show_cuts():
     turf, grass, sand = Material('turf'), Material('grass'), Material('sand')
-    shown = flat(BOX, (), turf, (Zone(grass, RING,
-                                      (HOLE, OVER)), Zone(sand, HOLE, (((0, 0), (5, 0), (0, 5)), ))))
+    shown = flat(
+        BOX,
+        (),
+        turf,
+        (Zone(grass, RING, (HOLE, OVER)), Zone(sand, HOLE, (((0, 0), (5, 0), (0, 5)),))),
+    )
     found = {material.name: area(pieces) for material, pieces in shown}
     ring = 1600 - 400 - (15 * 10 - 25)
     assert found['grass'] == pytest.approx(ring) and found['sand'] == pytest.approx(400 - 12.5)
@@ -98,19 +128,36 @@ def test_the_distance_from_a_region_is_never_more_than_it_is():
         nearest = np.hypot(*(inner - (x, y)).T).min()
         away, inside = beside_region(table, 0, x, y)
         assert away <= nearest + 1e-9 and (away == 0.0) == inside
-    assert beside_region(table, 0, 0.0, 0.0)[0] == 10.0 and beside_region(table, 1, 0.0, 15.0)[0] == 5.0
+    assert (
+        beside_region(table, 0, 0.0, 0.0)[0] == 10.0
+        and beside_region(table, 1, 0.0, 15.0)[0] == 5.0
+    )
 
 
-@pytest.mark.parametrize('speed, status, low, high', [(9.0, 'water', -20.0, -10.0),
-                                                      (16.0, 'at_rest', -10.0, 10.0),
-                                                      (20.5, 'water', 10.0, 20.0),
-                                                      (31.0, 'at_rest', 20.0, 200.0)])
-def test_a_ball_that_lands_on_an_island_or_beyond_the_pond_stays_dry(load, speed, status, low, high):
+@pytest.mark.parametrize(
+    'speed, status, low, high',
+    [
+        (9.0, 'water', -20.0, -10.0),
+        (16.0, 'at_rest', -10.0, 10.0),
+        (20.5, 'water', 10.0, 20.0),
+        (31.0, 'at_rest', 20.0, 200.0),
+    ],
+)
+def test_a_ball_that_lands_on_an_island_or_beyond_the_pond_stays_dry(
+    load, speed, status, low, high
+):
     # At 45 degrees no ball skips, and on soft ground it stays near where it lands.
-    soft = POND.replace(
-        'ground:', 'materials: {rough: {restitution: 0, static_friction: 1, dynamic_friction: 1, '
-        'rolling_resistance: 5}}\nground:') + 'effects: [gravity]\n'
-    result = simulate(load(soft), Shot((speed / 2 ** 0.5, 0.0, speed / 2 ** 0.5), (0.0, 0.0, 0.0))).result
+    soft = (
+        POND.replace(
+            'ground:',
+            'materials: {rough: {restitution: 0, static_friction: 1, dynamic_friction: 1, '
+            'rolling_resistance: 5}}\nground:',
+        )
+        + 'effects: [gravity]\n'
+    )
+    result = simulate(
+        load(soft), Shot((speed / 2**0.5, 0.0, speed / 2**0.5), (0.0, 0.0, 0.0))
+    ).result
     assert result.status == status and low < result.position[0] < high
 
 
@@ -124,28 +171,37 @@ def test_a_ball_is_placed_on_an_island_and_not_in_the_water_around(load):
 def test_cuts_compile_nothing_that_is_not_compiled_without(load):
     for content in (COURSE, POND):
         course = load(content)
-        plain = course._replace(zones=tuple(zone._replace(cut=()) for zone in course.zones),
-                                water=tuple(pond._replace(cut=()) for pond in course.water))
+        plain = course._replace(
+            zones=tuple(zone._replace(cut=()) for zone in course.zones),
+            water=tuple(pond._replace(cut=()) for pond in course.water),
+        )
         bare = plain._replace(zones=(), water=())
         assert World(course).program == World(plain).program == World(bare).program
 
 
 def test_a_zone_may_be_a_pair_as_ever(load):
     course = load(COURSE)
-    pair = course._replace(zones=((course.zones[0].material, RING), ))
+    pair = course._replace(zones=((course.zones[0].material, RING),))
     assert ground_height(pair, 0.0, 0.0)[1] == 'fairway'
 
 
 @pytest.mark.parametrize(
-    'cut, said', [('[[0, 0], [1, 0], [1, 1]]', 'zones[0].cut[0] [0, 0] must be a list of 3 or more corners'),
-                  ('[[[0, 0], [1, 1], [1, 0], [0, 1]]]',
-                   'zones[0].cut[0] [[0, 0], [1, 1], [1, 0], [0, 1]] must be a polygon'),
-                  ('3', 'zones[0].cut 3 must be a list of polygons')])
+    'cut, said',
+    [
+        ('[[0, 0], [1, 0], [1, 1]]', 'zones[0].cut[0] [0, 0] must be a list of 3 or more corners'),
+        (
+            '[[[0, 0], [1, 1], [1, 0], [0, 1]]]',
+            'zones[0].cut[0] [[0, 0], [1, 1], [1, 0], [0, 1]] must be a polygon',
+        ),
+        ('3', 'zones[0].cut 3 must be a list of polygons'),
+    ],
+)
 def test_a_wrong_cut_is_named(load, cut, said):
     with pytest.raises(CourseError) as caught:
         load(
             'format: 1\nground: [{shape: plane, material: rough}]\nzones: [{material: green, polygon: [[0,'
-            f' 0], [9, 0], [9, 9]], cut: {cut}}}]\n')
+            f' 0], [9, 0], [9, 9]], cut: {cut}}}]\n'
+        )
     assert said in str(caught.value)
 
 
@@ -155,44 +211,66 @@ def test_a_round_is_its_courses_in_order_and_a_course_is_a_round_of_one(tmp_path
     (tmp_path / 'second.yaml').write_text(POND)
     path = tmp_path / 'round.yaml'
     path.write_text(
-        'format: 1\nname: a round\nround: [holes/first.yaml, second.yaml, links, holes/first.yaml]\n')
+        'format: 1\nname: a round\nround: [holes/first.yaml, second.yaml, links, holes/first.yaml]\n'
+    )
     played = load_round(path)
-    assert [course.name for course in played] == ['first', 'second', load_course('links').name, 'first']
+    assert [course.name for course in played] == [
+        'first',
+        'second',
+        load_course('links').name,
+        'first',
+    ]
     assert played[1].digest == load_course(tmp_path / 'second.yaml').digest
     assert [course.name for course in load_round(tmp_path / 'second.yaml')] == ['second']
     assert load_round('links')[0].digest == load_course('links').digest
-    with pytest.raises(CourseError,
-                       match=r'round.yaml: is a round of 4 courses: give one of them: holes/first.yaml'):
+    with pytest.raises(
+        CourseError,
+        match=r'round.yaml: is a round of 4 courses: give one of them: holes/first.yaml',
+    ):
         load_course(path)
 
 
 @pytest.mark.parametrize(
     'content, said',
-    [('round: []', "key 'format' is missing"),
-     ('format: 1\nround: []', 'round [] must be a list of one or more'),
-     ('format: 1\nround: [1]', 'round[0] 1 must be a line of text'),
-     ('format: 1\nround: [a.yaml]\nhole: [1, 2]', "key 'hole' is unknown; known: format, name, round"),
-     ('format: 1\nround: [nowhere.yaml]', 'nowhere.yaml: cannot be read: No such file'),
-     ('format: 1\nround: [round.yaml]', 'round: '),
-     ('format: 1\nround: [~nobody_at_all/x.yaml]', 'cannot be read')])
+    [
+        ('round: []', "key 'format' is missing"),
+        ('format: 1\nround: []', 'round [] must be a list of one or more'),
+        ('format: 1\nround: [1]', 'round[0] 1 must be a line of text'),
+        (
+            'format: 1\nround: [a.yaml]\nhole: [1, 2]',
+            "key 'hole' is unknown; known: format, name, round",
+        ),
+        ('format: 1\nround: [nowhere.yaml]', 'nowhere.yaml: cannot be read: No such file'),
+        ('format: 1\nround: [round.yaml]', 'round: '),
+        ('format: 1\nround: [~nobody_at_all/x.yaml]', 'cannot be read'),
+    ],
+)
 def test_a_wrong_round_is_told_in_one_line(tmp_path, content, said):
     path = tmp_path / 'round.yaml'
     path.write_text(content)
     with pytest.raises(CourseError) as caught:
         load_round(path)
-    assert said in str(caught.value) and str(caught.value).startswith(f'{path}: ') and len(str(
-        caught.value)) <= 300
+    assert (
+        said in str(caught.value)
+        and str(caught.value).startswith(f'{path}: ')
+        and len(str(caught.value)) <= 300
+    )
 
 
 def test_many_zones_are_shown_as_few_are():
     turf = Material('turf')
     places = [(-28 + 4 * (i % 14), -28 + 4 * (i // 14)) for i in range(196)]
-    zones = [Zone(Material(f'zone {i % 3}'), ((x, y), (x + 5, y), (x + 5, y + 3), (x, y + 3)))
-             for i, (x, y) in enumerate(places)]
+    zones = [
+        Zone(Material(f'zone {i % 3}'), ((x, y), (x + 5, y), (x + 5, y + 3), (x, y + 3)))
+        for i, (x, y) in enumerate(places)
+    ]
     found = {}
     for material, pieces in flat(BOX, (HOLE,), turf, zones):
         found[material.name] = found.get(material.name, 0.0) + area(pieces)
-    x, y = (part.ravel() + 0.125 for part in np.meshgrid(np.arange(-30, 30, 0.25), np.arange(-30, 30, 0.25)))
+    x, y = (
+        part.ravel() + 0.125
+        for part in np.meshgrid(np.arange(-30, 30, 0.25), np.arange(-30, 30, 0.25))
+    )
     last = last_zone(zones, x, y)
     shown = np.maximum(np.abs(x), np.abs(y)) > 10
     for number in range(3):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Mesh files: what is read of each format, what is repaired and noted, and what is refused."""
+
 import sys
 
 from golf_sim_ros.course import load_course
@@ -25,28 +39,37 @@ def binary_stl(corners):
 
 def text_stl(corners):
     """The same in text."""
-    facets = [' facet normal 0 0 0\n  outer loop\n'
-              + ''.join(f'   vertex {x} {y} {z}\n' for x, y, z in three) + '  endloop\n endfacet\n'
-              for three in corners]
+    facets = [
+        ' facet normal 0 0 0\n  outer loop\n'
+        + ''.join(f'   vertex {x} {y} {z}\n' for x, y, z in three)
+        + '  endloop\n endfacet\n'
+        for three in corners
+    ]
     return ('solid square\n' + ''.join(facets) + 'endsolid square\n').encode()
 
 
 @pytest.fixture
 def read(tmp_path):
     """Write a file and read it."""
+
     def read(name, raw):
         path = tmp_path / name
         path.write_bytes(raw if isinstance(raw, bytes) else raw.encode())
         return read_mesh(path)
+
     return read
 
 
-@pytest.mark.parametrize('name, raw', [
-    ('a.stl', binary_stl(SQUARE)), ('a.STL', text_stl(SQUARE)),
-    ('a.obj', OBJ + 'f 1 2 3\nf 1 3 4\n'),
-    ('quad.obj', OBJ + 'f 1 2 3 4\n'),
-    ('slashes.obj', '# a comment\nvt 0 0\n' + OBJ + 's off\nf 1/1/1 2//3 3/1\nf -4 -2 -1\n'),
-])
+@pytest.mark.parametrize(
+    'name, raw',
+    [
+        ('a.stl', binary_stl(SQUARE)),
+        ('a.STL', text_stl(SQUARE)),
+        ('a.obj', OBJ + 'f 1 2 3\nf 1 3 4\n'),
+        ('quad.obj', OBJ + 'f 1 2 3 4\n'),
+        ('slashes.obj', '# a comment\nvt 0 0\n' + OBJ + 's off\nf 1/1/1 2//3 3/1\nf -4 -2 -1\n'),
+    ],
+)
 def test_a_square_is_read(read, name, raw):
     vertices, faces, notes = read(name, raw)
     np.testing.assert_array_equal(vertices[faces], SQUARE)
@@ -66,7 +89,9 @@ def test_what_trimesh_writes_is_read(suffix, tmp_path):
 
 def test_without_trimesh_the_way_to_it_is_told(read, monkeypatch):
     monkeypatch.setitem(sys.modules, 'trimesh', None)
-    with pytest.raises(CourseError, match=r"a\.glb: needs trimesh: pip install 'golf_sim_ros\[mesh\]'"):
+    with pytest.raises(
+        CourseError, match=r"a\.glb: needs trimesh: pip install 'golf_sim_ros\[mesh\]'"
+    ):
         read('a.glb', 'glTF')
 
 
@@ -77,30 +102,39 @@ def test_faces_without_area_and_repeated_ones_are_dropped_and_told(read):
     vertices, faces, notes = read('a.stl', binary_stl([*SQUARE, line, point, again]))
     np.testing.assert_array_equal(vertices[faces], SQUARE)
     assert [note.partition(': ')[2] for note in notes] == [
-        '7 vertices equal to others were merged', '2 faces without area were dropped',
-        '1 faces that come twice were dropped']
+        '7 vertices equal to others were merged',
+        '2 faces without area were dropped',
+        '1 faces that come twice were dropped',
+    ]
 
 
-@pytest.mark.parametrize('name, raw, said', [
-    ('a.stl', b'', 'is empty'),
-    ('a.stl', b'format: 1\nname: no mesh at all\n', 'is no STL file'),
-    ('a.stl', b'solid but binary, or so it says' + b'\0' * 200, 'has no faces'),
-    ('a.stl', binary_stl(SQUARE)[:-7], 'is no STL file: 177 bytes do not hold the 2 triangles'),
-    ('a.stl', b'solid a\nvertex 1 2 three\n', 'is no STL file: a vertex is not three numbers'),
-    ('a.stl', b'solid a\nvertex 1 2 3\n', 'is no STL file: 1 vertices make no triangles'),
-    ('a.stl', binary_stl(SQUARE[:0]), 'has no faces'),
-    ('a.stl', binary_stl(SQUARE * np.nan), 'a vertex is not finite'),
-    ('a.stl', binary_stl(SQUARE * 1e7), 'more than 1e+06 m away'),
-    ('a.stl', binary_stl(SQUARE * (1, 0, 0)), 'has no face with an area'),
-    ('a.obj', OBJ, 'has no faces'),
-    ('a.obj', OBJ + 'f 1 2 5\n', 'a face names a vertex that is none of the 4 there are'),
-    ('a.obj', OBJ + 'f 0 1 2\n', 'a face names a vertex that is none of the 4 there are'),
-    ('a.obj', OBJ + 'v nan 0 0\nf 1 2 3\n', 'a vertex is not finite'),
-    ('a.obj', OBJ + 'f 1 2\n', 'is no OBJ file'),
-    ('a.obj', OBJ + 'f 1 2 x\n', 'is no OBJ file'),
-    ('a.obj', 'v 1 2\nf 1 1 1\n', 'is no OBJ file'),
-    ('a.step', b'1', 'is no mesh; known: .glb, .gltf, .obj, .ply, .stl'),
-])
+@pytest.mark.parametrize(
+    'name, raw, said',
+    [
+        ('a.stl', b'', 'is empty'),
+        ('a.stl', b'format: 1\nname: no mesh at all\n', 'is no STL file'),
+        ('a.stl', b'solid but binary, or so it says' + b'\0' * 200, 'has no faces'),
+        (
+            'a.stl',
+            binary_stl(SQUARE)[:-7],
+            'is no STL file: 177 bytes do not hold the 2 triangles',
+        ),
+        ('a.stl', b'solid a\nvertex 1 2 three\n', 'is no STL file: a vertex is not three numbers'),
+        ('a.stl', b'solid a\nvertex 1 2 3\n', 'is no STL file: 1 vertices make no triangles'),
+        ('a.stl', binary_stl(SQUARE[:0]), 'has no faces'),
+        ('a.stl', binary_stl(SQUARE * np.nan), 'a vertex is not finite'),
+        ('a.stl', binary_stl(SQUARE * 1e7), 'more than 1e+06 m away'),
+        ('a.stl', binary_stl(SQUARE * (1, 0, 0)), 'has no face with an area'),
+        ('a.obj', OBJ, 'has no faces'),
+        ('a.obj', OBJ + 'f 1 2 5\n', 'a face names a vertex that is none of the 4 there are'),
+        ('a.obj', OBJ + 'f 0 1 2\n', 'a face names a vertex that is none of the 4 there are'),
+        ('a.obj', OBJ + 'v nan 0 0\nf 1 2 3\n', 'a vertex is not finite'),
+        ('a.obj', OBJ + 'f 1 2\n', 'is no OBJ file'),
+        ('a.obj', OBJ + 'f 1 2 x\n', 'is no OBJ file'),
+        ('a.obj', 'v 1 2\nf 1 1 1\n', 'is no OBJ file'),
+        ('a.step', b'1', 'is no mesh; known: .glb, .gltf, .obj, .ply, .stl'),
+    ],
+)
 def test_a_broken_file_is_refused_in_one_line(read, name, raw, said):
     with pytest.raises(CourseError) as caught:
         read(name, raw)
@@ -124,17 +158,23 @@ def test_a_closed_mesh_that_is_inside_out_is_turned():
 @pytest.fixture
 def course_file(tmp_path):
     """Write a course with a mesh over a plane; gives the course's path and the mesh's."""
+
     def write(corners, more=''):
         mesh = tmp_path / 'floor.stl'
         mesh.write_bytes(binary_stl(corners))
         path = tmp_path / 'links.yaml'
-        path.write_text('format: 1\nground:\n  - {shape: plane, material: rough}\n'
-                        f'  - {{shape: mesh, file: floor.stl, material: sand{more}}}\n')
+        path.write_text(
+            'format: 1\nground:\n  - {shape: plane, material: rough}\n'
+            f'  - {{shape: mesh, file: floor.stl, material: sand{more}}}\n'
+        )
         return path
+
     return write
 
 
-def test_a_course_has_a_mesh_from_beside_its_file_and_tells_what_was_put_right(course_file, monkeypatch):
+def test_a_course_has_a_mesh_from_beside_its_file_and_tells_what_was_put_right(
+    course_file, monkeypatch
+):
     monkeypatch.chdir('/')
     course = load_course(course_file(SQUARE))
     assert ground_height(course, 1, 2) == (1.0, 'sand')
@@ -155,5 +195,7 @@ def test_a_one_sided_mesh_has_its_front_outside(course_file):
 
 
 def test_a_broken_mesh_is_named_with_its_place_in_the_course(course_file):
-    with pytest.raises(CourseError, match=r'links\.yaml: ground\[1\]\.file .*floor\.stl: has no faces$'):
+    with pytest.raises(
+        CourseError, match=r'links\.yaml: ground\[1\]\.file .*floor\.stl: has no faces$'
+    ):
         load_course(course_file(SQUARE[:0]))

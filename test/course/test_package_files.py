@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The files that come with the package are found wherever it lies."""
 
 from pathlib import Path
@@ -6,10 +19,9 @@ import shutil
 import subprocess
 import sys
 
-import pytest
-
 from golf_sim_ros.course import package_files as module
 from golf_sim_ros.course.package_files import share
+import pytest
 
 
 def run_copy(site_packages, environment=None):
@@ -20,8 +32,13 @@ def run_copy(site_packages, environment=None):
     for folder in (package, package / 'course'):
         (folder / '__init__.py').touch()
     code = 'from golf_sim_ros.course.package_files import share; print(share("config"))'
-    return subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, cwd=site_packages,
-                          env={'PATH': '', 'PYTHONPATH': str(site_packages), **(environment or {})})
+    return subprocess.run(
+        [sys.executable, '-c', code],
+        capture_output=True,
+        text=True,
+        cwd=site_packages,
+        env={'PATH': '', 'PYTHONPATH': str(site_packages), **(environment or {})},
+    )
 
 
 def install_files(folder):
@@ -34,8 +51,14 @@ def test_the_shipped_courses_are_found_from_here():
     assert list(share('config', 'courses').glob('*.yaml'))
 
 
-@pytest.mark.parametrize('library', ['lib/python3.12/site-packages', 'local/lib/python3.10/dist-packages',
-                                     'lib64/python3.13/site-packages'])
+@pytest.mark.parametrize(
+    'library',
+    [
+        'lib/python3.12/site-packages',
+        'local/lib/python3.10/dist-packages',
+        'lib64/python3.13/site-packages',
+    ],
+)
 def test_an_installed_package_finds_the_share_folder_of_its_own_prefix(tmp_path, library):
     site_packages = tmp_path / library
     prefix = site_packages.parents[2]
@@ -48,7 +71,9 @@ def test_a_package_elsewhere_finds_the_prefix_that_ros_has_sourced(tmp_path):
     install_files(tmp_path / 'overlay' / 'share' / 'golf_sim_ros')
     prefixes = f'{tmp_path / "underlay"}:{tmp_path / "overlay"}'
     run = run_copy(tmp_path / 'anywhere', {'AMENT_PREFIX_PATH': prefixes})
-    assert run.stdout.strip() == str(tmp_path / 'overlay' / 'share' / 'golf_sim_ros' / 'config'), run.stderr
+    assert run.stdout.strip() == str(tmp_path / 'overlay' / 'share' / 'golf_sim_ros' / 'config'), (
+        run.stderr
+    )
 
 
 def test_a_source_checkout_finds_its_own_files_even_with_another_one_sourced(tmp_path):

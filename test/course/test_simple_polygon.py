@@ -1,9 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Polygons that cross or touch themselves are found, and no others: as comparing all sides with all does."""
+
 from math import cos, pi, sin
 
 from golf_sim_ros.course.simple_polygon import crossing, meet
-from hypothesis import example, given, settings, strategies as st
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 import pytest
 
 SMALL = st.integers(-4, 4)
@@ -18,7 +33,9 @@ def compared(corners):
 
 def star(n, spike=None):
     """A polygon of `n` corners, with the one of number `spike` pulled through the other side."""
-    corners = [((10 + k % 2) * cos(2 * pi * k / n), (10 + k % 2) * sin(2 * pi * k / n)) for k in range(n)]
+    corners = [
+        ((10 + k % 2) * cos(2 * pi * k / n), (10 + k % 2) * sin(2 * pi * k / n)) for k in range(n)
+    ]
     if spike is not None:
         x, y = corners[spike]
         corners[spike] = (-1.5 * x, -1.5 * y)
@@ -37,8 +54,11 @@ def comb(n):
 @example([(0, 0), (2, 2), (4, 0), (4, 4), (2, 2), (0, 4)])
 @example([(0, 0), (0, 4), (0, 2), (3, 3)])
 def test_the_sweep_finds_what_comparing_all_sides_finds(corners):
-    corners = tuple((float(x), float(y)) for (x, y), after in zip(corners, corners[1:] + corners[:1])
-                    if (x, y) != after)
+    corners = tuple(
+        (float(x), float(y))
+        for (x, y), after in zip(corners, corners[1:] + corners[:1])
+        if (x, y) != after
+    )
     if len(corners) >= 3:
         found = crossing(corners)
         assert (found is not None) == compared(corners)
@@ -66,11 +86,13 @@ def test_a_comb_is_simple():
 def calls(corners, monkeypatch):
     """How often the turn of three points is asked for."""
     from golf_sim_ros.course import simple_polygon
+
     count, turn = [0], simple_polygon.turn
 
     def counted(a, b, c):
         count[0] += 1
         return turn(a, b, c)
+
     with monkeypatch.context() as patch:
         patch.setattr(simple_polygon, 'turn', counted)
         assert crossing(corners) is None

@@ -1,21 +1,42 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Pictures show what was played."""
+
 import math
 
+from golf_sim_ros.course import load_course
+from golf_sim_ros.physics import (
+    Course,
+    ground_height,
+    Material,
+    Patch,
+    Plane,
+    Shot,
+    simulate,
+    Water,
+)
+from golf_sim_ros.physics.scene import kernel_model
 import numpy as np
 import pytest
 
-from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import Course, Material, Patch, Plane, Shot, Water, ground_height, simulate
-from golf_sim_ros.physics.scene import kernel_model
-
 pytest.importorskip('matplotlib')
-from matplotlib.colors import to_rgb  # noqa: E402
-from matplotlib.image import imread  # noqa: E402
-
 from golf_sim_ros import drawing  # noqa: E402
 from golf_sim_ros.drawing import window  # noqa: E402
 from golf_sim_ros.drawing.shots import detailed  # noqa: E402
+from matplotlib.colors import to_rgb  # noqa: E402
+from matplotlib.image import imread  # noqa: E402
 
 COURSE = load_course('golf_without_friends')
 DRIVE = Shot((73.3, 2.0, 14.1), (0.0, -281.0, -20.0))
@@ -42,7 +63,9 @@ def putt():
 
 @pytest.fixture(scope='module')
 def eighteen():
-    return [shot(Shot((66.0 + i, 0.3 * i - 2.0, 14.0), (0.0, -280.0, 0.0)), i) for i in range(1, 19)]
+    return [
+        shot(Shot((66.0 + i, 0.3 * i - 2.0, 14.0), (0.0, -280.0, 0.0)), i) for i in range(1, 19)
+    ]
 
 
 def axes(figure, label):
@@ -81,8 +104,11 @@ def test_charts_show_speed_height_and_spin_from_the_strike_to_the_end(drive):
 
 def test_every_bounce_is_marked_where_it_was(drive):
     figure = drawing.picture([drive], COURSE)
-    marked = [line.get_xydata() for line in axes(figure, 'above').lines
-              if line.get_marker() == 'o' and len(line.get_xdata()) == len(drive.collisions)]
+    marked = [
+        line.get_xydata()
+        for line in axes(figure, 'above').lines
+        if line.get_marker() == 'o' and len(line.get_xdata()) == len(drive.collisions)
+    ]
     assert len(drive.collisions) > 3
     np.testing.assert_allclose(marked[0], [hit.position[:2] for hit in drive.collisions])
 
@@ -106,8 +132,11 @@ def test_all_that_was_played_lies_inside_the_views(eighteen):
             assert left < x.min() and x.max() < right and low < y.min() and y.max() < high
 
 
-@pytest.mark.parametrize('strike', [DRIVE, PUTT, Shot((1.0, 30.0, 20.0)), Shot((0.0, 0.0, 5.0))],
-                         ids=['drive', 'putt', 'to the left', 'straight up'])
+@pytest.mark.parametrize(
+    'strike',
+    [DRIVE, PUTT, Shot((1.0, 30.0, 20.0)), Shot((0.0, 0.0, 5.0))],
+    ids=['drive', 'putt', 'to the left', 'straight up'],
+)
 def test_from_above_a_metre_is_as_long_along_as_across(strike):
     figure = drawing.picture([shot(strike)], COURSE)
     part = axes(figure, 'above')
@@ -119,9 +148,13 @@ def test_from_above_a_metre_is_as_long_along_as_across(strike):
 
 def test_the_ground_has_the_colours_of_its_materials():
     red, blue = Material('red', color=RED), Material('blue', color=BLUE, rolling_resistance=0.1)
-    course = Course((Plane(material=blue, cut=(((4.0, -1.0), (6.0, -1.0), (6.0, 1.0), (4.0, 1.0)),)),
-                     Patch((5.0, 0.0, -0.5), length=6.0, width=6.0, material=red),
-                     Patch((1.0, 0.0, 0.0), length=1.0, width=0.5, material=red)))
+    course = Course(
+        (
+            Plane(material=blue, cut=(((4.0, -1.0), (6.0, -1.0), (6.0, 1.0), (4.0, 1.0)),)),
+            Patch((5.0, 0.0, -0.5), length=6.0, width=6.0, material=red),
+            Patch((1.0, 0.0, 0.0), length=1.0, width=0.5, material=red),
+        )
+    )
     part = axes(drawing.picture([shot(Shot((4.0, 0.0, 0.0)), 1, course)], course), 'above')
     pixels, (left, right, low, high) = part.images[0].get_array(), part.images[0].get_extent()
 
@@ -129,8 +162,13 @@ def test_the_ground_has_the_colours_of_its_materials():
         row = int((y - low) / (high - low) * pixels.shape[0])
         return pixels[row, int((x - left) / (right - left) * pixels.shape[1])]
 
-    for x, y, expected in ((2.0, 0.4, BLUE), (5.0, 0.5, RED), (5.0, -0.5, RED), (3.5, 0.2, BLUE),
-                           (1.2, 0.1, RED)):
+    for x, y, expected in (
+        (2.0, 0.4, BLUE),
+        (5.0, 0.5, RED),
+        (5.0, -0.5, RED),
+        (3.5, 0.2, BLUE),
+        (1.2, 0.1, RED),
+    ):
         np.testing.assert_allclose(color(x, y), expected, err_msg=f'{x}, {y}')
 
 
@@ -171,13 +209,18 @@ def test_shots_of_two_balls_are_told_apart(drive, putt):
 
 def test_eighteen_shots_have_eighteen_colours_and_numbers_that_do_not_overlap(eighteen):
     figure = drawing.picture(eighteen, COURSE)
-    lines = [line for line in axes(figure, 'above').lines if str(line.get_label()).startswith('shot ')]
+    lines = [
+        line for line in axes(figure, 'above').lines if str(line.get_label()).startswith('shot ')
+    ]
     assert len({to_rgb(line.get_color()) for line in lines}) == 18
     figure.draw_without_rendering()
     boxes = [text.get_window_extent() for text in axes(figure, 'above').texts]
     assert len(boxes) > 3
-    assert not any(one.shrunk(0.8, 0.8).overlaps(other.shrunk(0.8, 0.8))
-                   for i, one in enumerate(boxes) for other in boxes[:i])
+    assert not any(
+        one.shrunk(0.8, 0.8).overlaps(other.shrunk(0.8, 0.8))
+        for i, one in enumerate(boxes)
+        for other in boxes[:i]
+    )
 
 
 def test_cells_of_the_table_do_not_overlap(eighteen):
@@ -195,7 +238,9 @@ def test_the_wind_is_told_in_words_and_as_arrows(drive):
 
 
 def test_only_gusts_that_blew_during_the_shot_are_told(putt):
-    late = putt._replace(wind=np.array([(0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 2.0, 0.0), (100.0, 50.0, 0.0, 0.0)]))
+    late = putt._replace(
+        wind=np.array([(0.0, 1.0, 0.0, 0.0), (1.0, 0.0, 2.0, 0.0), (100.0, 50.0, 0.0, 0.0)])
+    )
     assert drawing.wind.speeds([late]) == (1.0, 2.0)
     assert drawing.wind.speeds([late._replace(times=late.times + 2.0)]) == (2.0, 2.0)
 
@@ -205,7 +250,9 @@ def test_ends_near_the_hole_are_drawn_once_more(drive, putt):
     part = axes(figure, 'hole')
     assert np.ptp(part.get_xlim()) == pytest.approx(np.ptp(part.get_ylim()))
     x, y, _ = putt.result.position
-    assert part.get_xlim()[0] < x < part.get_xlim()[1] and part.get_ylim()[0] < y < part.get_ylim()[1]
+    assert (
+        part.get_xlim()[0] < x < part.get_xlim()[1] and part.get_ylim()[0] < y < part.get_ylim()[1]
+    )
 
 
 def test_a_hole_far_away_is_neither_in_view_nor_drawn_once_more():
@@ -222,7 +269,9 @@ def test_without_a_course_paths_are_drawn(drive):
 
 
 def test_a_course_without_hole_and_with_bounds_can_be_drawn(drive):
-    course = COURSE._replace(hole=None, bounds=((-5.0, -30.0), (350.0, -30.0), (350.0, 30.0), (-5.0, 30.0)))
+    course = COURSE._replace(
+        hole=None, bounds=((-5.0, -30.0), (350.0, -30.0), (350.0, 30.0), (-5.0, 30.0))
+    )
     lost = drive._replace(result=drive.result._replace(to_hole=None))
     assert 'to hole' not in texts(drawing.picture([lost], course), 'table')
 
@@ -243,6 +292,7 @@ def test_water_is_blue_where_it_covers_the_ground_and_no_farther():
     pond = Water(((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)), -0.2)
     course = Course((Plane(),), water=(pond,))
     heights = np.array([[-1.0, -0.1, -1.0]])
-    colors = drawing.ground.flooded(np.full((1, 3, 3), 0.5), course, heights, np.array([0.5, 1.5, 2.5]),
-                                    np.array([[1.0]]))
+    colors = drawing.ground.flooded(
+        np.full((1, 3, 3), 0.5), course, heights, np.array([0.5, 1.5, 2.5]), np.array([[1.0]])
+    )
     assert colors[0, 0, 2] > colors[0, 0, 0] and (colors[0, 1:] == 0.5).all()

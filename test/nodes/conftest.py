@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Nodes as processes, and clients in this one, over real DDS on a domain of this session's own."""
+
 from contextlib import ExitStack
 import os
 from pathlib import Path
@@ -54,6 +68,7 @@ def start(domain):
     def start(module, *arguments, environment=None):
         processes.append(Process(module, *arguments, environment=environment))
         return processes[-1]
+
     yield start
     with ExitStack() as stack:  # each is stopped, also where one does not obey
         for process in processes:
@@ -74,6 +89,7 @@ def make_client(domain):
     def make(namespace=''):
         clients.append(Client(namespace))
         return clients[-1]
+
     yield make
     for client in clients:
         client.close()
@@ -87,6 +103,7 @@ def make_golfer(domain):
     def make(namespace='', ball='ball'):
         golfers.append(Golfer(namespace, ball))
         return golfers[-1]
+
     yield make
     for golfer in golfers:
         golfer.close()

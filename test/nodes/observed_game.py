@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A `Game` without DDS, on a clock that only tests turn, and all that it publishes."""
+
 import json
 from types import SimpleNamespace
 from unittest.mock import MagicMock
@@ -61,7 +75,10 @@ class Heard:
 
 
 class ObservedGame:
-    """A game on `course`; `results` and `entries` are all that it published of shots and of inputs."""
+    """A game on `course`.
+
+    `results` and `entries` are all that it published of shots and of inputs.
+    """
 
     def __init__(self, monkeypatch, course, balls=('ball',), factor=1.0, rate=250.0):
         self.clock = TurnedClock()
@@ -69,10 +86,15 @@ class ObservedGame:
         self.given = Parameters(course='', balls=balls, real_time_factor=factor, rate=rate)
         self.world, self.heard = World(course, balls), Heard()
         self.entries, self.results, self.collisions = (
-            self.heard.entries, self.heard.results, self.heard.collisions)
+            self.heard.entries,
+            self.heard.results,
+            self.heard.collisions,
+        )
         self.log, self.rejected_inputs = MagicMock(), MagicMock()
         takeover = Takeover(self.world, 'python', self.log)
-        self.game = Game(self.world, self.heard, self.rejected_inputs, self.log, self.given, takeover)
+        self.game = Game(
+            self.world, self.heard, self.rejected_inputs, self.log, self.given, takeover
+        )
         self.game.journal.config(self.world, self.given._asdict(), 0)
 
     def send(self, ball, velocity, spin=(0.0, 0.0, 0.0)):
@@ -95,7 +117,13 @@ class ObservedGame:
 
     def differences(self):
         """What differs of each recorded shot when it is run again: None where nothing does."""
-        recording = SimpleNamespace(journal=self.entries, config=self.entries[0], strikes=[], tracks={},
-                                    results=self.results, collisions=[])
+        recording = SimpleNamespace(
+            journal=self.entries,
+            config=self.entries[0],
+            strikes=[],
+            tracks={},
+            results=self.results,
+            collisions=[],
+        )
         world, tick = World(self.world.course, self.given.balls), tick_of(recording)
         return [difference(recording, shot, rerun(world, shot, tick)) for shot in shots(recording)]

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What tests over DDS share: processes to start, a client to talk to them, and patience."""
+
 import json
 import os
 import signal
@@ -42,11 +56,18 @@ class Process:
         folder = '' if '.' in module else 'nodes.'
         command = [sys.executable, '-u', '-m', f'golf_sim_ros.{folder}{module}', *arguments]
         self.popen = subprocess.Popen(
-            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-            env={**os.environ, **(environment or {})}, start_new_session=True)
+            command,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            env={**os.environ, **(environment or {})},
+            start_new_session=True,
+        )
         self.pid = self.popen.pid
         self.lines = []
-        self.reader = threading.Thread(target=lambda: self.lines.extend(self.popen.stdout), daemon=True)
+        self.reader = threading.Thread(
+            target=lambda: self.lines.extend(self.popen.stdout), daemon=True
+        )
         self.reader.start()
 
     @property
@@ -55,8 +76,11 @@ class Process:
 
     def wait_for(self, text, seconds=DEADLINE):
         """The first line of output that contains `text`."""
-        wait_until(lambda: text in self.output or self.popen.poll() is not None,
-                   f'{text!r} in the output:\n{self.output}', seconds)
+        wait_until(
+            lambda: text in self.output or self.popen.poll() is not None,
+            f'{text!r} in the output:\n{self.output}',
+            seconds,
+        )
         found = [line for line in self.lines if text in line]
         assert found, f'ended with code {self.popen.poll()} without {text!r}:\n{self.output}'
         return found[0]
@@ -92,7 +116,9 @@ class Client:
     def __init__(self, namespace=''):
         self.context = Context()
         rclpy.init(context=self.context, domain_id=int(os.environ['ROS_DOMAIN_ID']))
-        self.node = rclpy.create_node(f'client_{id(self)}', namespace=namespace, context=self.context)
+        self.node = rclpy.create_node(
+            f'client_{id(self)}', namespace=namespace, context=self.context
+        )
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
         self.thread = threading.Thread(target=self.executor.spin, daemon=True)
@@ -125,6 +151,7 @@ class Client:
                 futures.append(client.call_async(request))
                 due[0] = time.monotonic() + RESEND
             return [future for future in futures if future.done()]
+
         due = [0.0]
         first, *_ = wait_until(answered, f'{service} answered')
         self.node.destroy_client(client)
@@ -163,13 +190,18 @@ class Golfer(Client):
     def results_of(self, velocity, spin=(0.0, 0.0, 0.0)):
         """All results of strikes with this velocity and spin (None: was not finite)."""
         told = [json.loads(message.data) for message in self.results]
-        return [result for result in told
-                if result['velocity'] == list(velocity) and result['spin'] == list(spin)]
+        return [
+            result
+            for result in told
+            if result['velocity'] == list(velocity) and result['spin'] == list(spin)
+        ]
 
     def play(self, velocity, spin=(0.0, 0.0, 0.0)):
         """The result of a strike that is like no other before."""
         self.strike(velocity, spin)
-        return wait_until(lambda: self.results_of(velocity, spin), f'the result of {velocity} came')[0]
+        return wait_until(
+            lambda: self.results_of(velocity, spin), f'the result of {velocity} came'
+        )[0]
 
     def impacts(self):
         """All collisions, read."""
@@ -178,7 +210,8 @@ class Golfer(Client):
     def heartbeat(self):
         """Wait until a new subscription got the pose: all that the sim published before has arrived."""
         seen, heard = len(self.poses), []
-        # It stays until the node goes: rclpy's executor may stumble over one that is destroyed as it waits.
+        # It stays until the node goes: rclpy's executor may stumble over one that is destroyed as
+        # it waits.
         self.node.create_subscription(PoseStamped, f'{self.ball}/pose', heard.append, 100)
         wait_until(lambda: heard and len(self.poses) > seen, 'the sim told where the ball is')
 

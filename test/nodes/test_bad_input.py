@@ -1,12 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Inputs that a sim must not follow: they are rejected, logged, and forgotten to the bit."""
+
 import json
 from math import inf, nan
 
 from geometry_msgs.msg import PointStamped, Vector3Stamped
-import pytest
-
 from processes import Golfer, parameters, place, READY, wait_until
+import pytest
 
 GOOD, GOOD_SPIN = (9.0, 0.7, 6.0), (3.0, -120.0, 11.0)
 BAD_SHOTS = {
@@ -66,8 +79,11 @@ def bits_of(golfer):
     golfer.strike(GOOD, GOOD_SPIN)
     results = wait_until(lambda: golfer.results_of(GOOD, GOOD_SPIN)[shots:], 'the result came')
     golfer.heartbeat()
-    return [without(result, 'shot') for result in results], place(golfer.poses[-1]), [
-        without(impact) for impact in golfer.impacts()[impacts:]]
+    return (
+        [without(result, 'shot') for result in results],
+        place(golfer.poses[-1]),
+        [without(impact) for impact in golfer.impacts()[impacts:]],
+    )
 
 
 def without(told, *names):
@@ -81,14 +97,15 @@ def rejections(golfer):
 
 @pytest.mark.parametrize('case', BAD_SHOTS)
 def test_a_bad_shot_is_rejected_once_and_the_next_good_one_is_the_same_to_the_bit(
-        golfer, expected, sim, case):
+    golfer, expected, sim, case
+):
     velocity, spin, reason = BAD_SHOTS[case]
     before = len(rejections(golfer))
     rest = place(golfer.poses[-1])
     golfer.strike(velocity, spin)
     wait_until(lambda: len(rejections(golfer)) > before, 'the rejection came')
     golfer.heartbeat()
-    told, = rejections(golfer)[before:]
+    (told,) = rejections(golfer)[before:]
     assert list(told) == ['shot', 'ball', 'status', 'velocity', 'spin', 'reason']
     assert reason in told['reason'] and told['ball'] == 'ball'
     assert place(golfer.poses[-1]) == rest
@@ -105,11 +122,14 @@ def test_a_shot_at_a_moving_ball_is_rejected_and_does_not_disturb_it(golfer, exp
     golfer.strike((20.0, 0.0, 1.0))
     results = wait_until(lambda: golfer.results_of(GOOD, GOOD_SPIN)[shots:], 'the result came')
     golfer.heartbeat()
-    told, = rejections(golfer)[before:]
+    (told,) = rejections(golfer)[before:]
     assert 'motion' in told['reason'] and told['velocity'] == [20.0, 0.0, 1.0]
     assert told['shot'] == results[0]['shot'] + 1
-    assert ([without(result, 'shot') for result in results], place(golfer.poses[-1]),
-            [without(impact) for impact in golfer.impacts()[impacts:]]) == expected
+    assert (
+        [without(result, 'shot') for result in results],
+        place(golfer.poses[-1]),
+        [without(impact) for impact in golfer.impacts()[impacts:]],
+    ) == expected
 
 
 @pytest.mark.parametrize('case', BAD_WINDS)
@@ -119,8 +139,13 @@ def test_a_bad_wind_is_ignored_with_a_warning(golfer, expected, sim, case):
     message.header.frame_id = frame
     message.vector.x, message.vector.y, message.vector.z = wind
     lines = warnings(sim, 'wind refused', reason)
-    publish_until(golfer, Vector3Stamped, 'wind', message,
-                  lambda: warnings(sim, 'wind refused', reason) > lines)
+    publish_until(
+        golfer,
+        Vector3Stamped,
+        'wind',
+        message,
+        lambda: warnings(sim, 'wind refused', reason) > lines,
+    )
     assert bits_of(golfer) == expected
 
 
@@ -131,8 +156,13 @@ def test_a_bad_place_is_ignored_with_a_warning(golfer, expected, sim, case):
     message.header.frame_id = frame
     message.point.x, message.point.y = x, y
     lines = warnings(sim, 'place refused', reason)
-    publish_until(golfer, PointStamped, 'ball/place', message,
-                  lambda: warnings(sim, 'place refused', reason) > lines)
+    publish_until(
+        golfer,
+        PointStamped,
+        'ball/place',
+        message,
+        lambda: warnings(sim, 'place refused', reason) > lines,
+    )
     golfer.heartbeat()
     assert bits_of(golfer) == expected
 
@@ -148,16 +178,23 @@ def test_a_place_for_a_moving_ball_is_ignored_and_does_not_disturb_it(golfer, ex
     results = wait_until(lambda: golfer.results_of(GOOD, GOOD_SPIN)[shots:], 'the result came')
     golfer.heartbeat()
     assert warnings(sim, 'place refused', 'motion') == lines + 1
-    assert ([without(result, 'shot') for result in results], place(golfer.poses[-1]),
-            [without(impact) for impact in golfer.impacts()[impacts:]]) == expected
+    assert (
+        [without(result, 'shot') for result in results],
+        place(golfer.poses[-1]),
+        [without(impact) for impact in golfer.impacts()[impacts:]],
+    ) == expected
 
 
-def test_a_flood_of_bad_shots_gives_every_one_its_result_and_few_warnings_with_a_count(golfer, expected, sim):
+def test_a_flood_of_bad_shots_gives_every_one_its_result_and_few_warnings_with_a_count(
+    golfer, expected, sim
+):
     before, lines = len(rejections(golfer)), warnings(sim, 'shot refused', '')
     for number in range(8):
         for _ in range(10):
             golfer.strike((200.0 + number, 0.0, 0.0))
-        wait_until(lambda: len(rejections(golfer)) >= before + 10 * (number + 1), 'the rejections came')
+        wait_until(
+            lambda: len(rejections(golfer)) >= before + 10 * (number + 1), 'the rejections came'
+        )
     golfer.heartbeat()
     assert len(rejections(golfer)) == before + 80
     assert warnings(sim, 'shot refused', '') - lines < 40
@@ -176,4 +213,5 @@ def publish_until(golfer, kind, topic, message, condition):
     def happened():
         publisher.publish(message)
         return condition()
+
     wait_until(happened, f'{topic} was refused', 20.0)

@@ -1,14 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Every strike has exactly one result with its own number, in order, however weak it was."""
+
 import json
 from math import inf
-
-import pytest
-from std_srvs.srv import SetBool
 
 from golf_sim_ros.course import load_course
 from observed_game import ObservedGame
 from processes import parameters, READY, wait_until
+import pytest
+from std_srvs.srv import SetBool
 
 WEAK, GOOD = (1e-9, 0.0, 0.0), (2.0, 0.1, 0.5)
 FACTORS = (1.0, 0.0, 20.0)
@@ -24,7 +37,10 @@ def game_of(monkeypatch, factor, balls=('ball',), rate=250.0):
 
 
 def check(observed, count):
-    """Numbers 1 to `count` have each one result; each strike in the journal stands before its rest."""
+    """Numbers 1 to `count` have each one result.
+
+    Each strike in the journal stands before its rest.
+    """
     assert sorted(result['shot'] for result in observed.results) == list(range(1, count + 1))
     struck, ended = [], []
     for entry in observed.entries:
@@ -138,4 +154,6 @@ def test_a_failed_shot_is_reported_logged_and_recorded_and_the_play_goes_on(monk
     assert 'shot 1 failed' in observed.log.error.call_args.args[0]
     observed.game.diagnose()
     slow, values = observed.heard.diagnosed[-1]
-    assert values['balls that could not go on'] == '1' and failed['reason'] in values['last of them']
+    assert (
+        values['balls that could not go on'] == '1' and failed['reason'] in values['last of them']
+    )

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The journal over DDS: what is recorded of a sim runs again to the bit."""
+
 import signal
 
 from geometry_msgs.msg import PointStamped, Vector3Stamped
@@ -14,11 +28,28 @@ from golf_sim_ros.recording.bag import read_bag  # noqa: E402
 from golf_sim_ros.recording.journal import opened  # noqa: E402
 from processes import LASTING, parameters, place, READY, wait_until  # noqa: E402
 
-SHOTS = (((12.0, 1.0, 9.0), (0.0, -150.0, 20.0)), ((10.0, -2.0, 8.0), (5.0, 100.0, 0.0)),
-         ((3.0, 0.5, 0.0), (0.0, 0.0, 0.0)))
-TOPICS = {'/recorded/' + name for name in (
-    'shot', 'wind', 'collisions', 'shot/result', 'journal', 'course/markers', 'play/markers', 'ball/shot',
-    'ball/place', 'ball/pose', 'ball/twist', 'ball/contact')} | {'/diagnostics'}
+SHOTS = (
+    ((12.0, 1.0, 9.0), (0.0, -150.0, 20.0)),
+    ((10.0, -2.0, 8.0), (5.0, 100.0, 0.0)),
+    ((3.0, 0.5, 0.0), (0.0, 0.0, 0.0)),
+)
+TOPICS = {
+    '/recorded/' + name
+    for name in (
+        'shot',
+        'wind',
+        'collisions',
+        'shot/result',
+        'journal',
+        'course/markers',
+        'play/markers',
+        'ball/shot',
+        'ball/place',
+        'ball/pose',
+        'ball/twist',
+        'ball/contact',
+    )
+} | {'/diagnostics'}
 
 
 HASTY = {'real_time_factor': 0.0, 'publish_clock': 'true'}
@@ -40,17 +71,28 @@ def play_in_gusts(golfer, poses):
         while not golfer.results_of(velocity, spin):
             seen = len(golfer.poses)
             blow(winds, (0.01 * seen, -3.0 + 0.1 * (seen % 40), 0.0))
-            wait_until(lambda: len(golfer.poses) >= seen + poses or golfer.results_of(velocity, spin)
-                       or len(pauses) == 1, 'the ball moved or stopped')
+            wait_until(
+                lambda: (
+                    len(golfer.poses) >= seen + poses
+                    or golfer.results_of(velocity, spin)
+                    or len(pauses) == 1
+                ),
+                'the ball moved or stopped',
+            )
             if pauses:
                 golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=pauses.pop(0)))
 
 
-@pytest.mark.parametrize('storage, pace', [('mcap', {}), ('sqlite3', HASTY)], ids=['mcap', 'sqlite3, hasty'])
+@pytest.mark.parametrize(
+    'storage, pace', [('mcap', {}), ('sqlite3', HASTY)], ids=['mcap', 'sqlite3, hasty']
+)
 def test_three_shots_in_gusts_are_recorded_and_run_again_to_the_bit(
-        start, make_golfer, tmp_path, capsys, storage, pace):
+    start, make_golfer, tmp_path, capsys, storage, pace
+):
     path = tmp_path / 'bag'
-    recorder = start('cli.record_play', '-o', str(path), '--namespace', '/recorded', '--storage', storage)
+    recorder = start(
+        'cli.record_play', '-o', str(path), '--namespace', '/recorded', '--storage', storage
+    )
     sim = start('sim_node', *parameters('/recorded', **pace))
     sim.wait_for(READY)
     recorder.wait_for('recording ball')
@@ -59,7 +101,7 @@ def test_three_shots_in_gusts_are_recorded_and_run_again_to_the_bit(
     golfer.heartbeat()
     assert recorder.stop(signal.SIGTERM if storage == 'mcap' else signal.SIGINT) == 0
     assert sim.stop() == 0
-    recording, = read_bag(path)
+    (recording,) = read_bag(path)
     gusts = [entry for entry in recording.journal if entry['kind'] == 'wind']
     assert len(gusts) > (0 if pace else 3)
     assert [entry['kind'] for entry in recording.journal].count('strike') == len(SHOTS)
@@ -72,14 +114,21 @@ def test_three_shots_in_gusts_are_recorded_and_run_again_to_the_bit(
 def topics(path):
     """Names of the topics in a bag; their publishers' qualities of service are kept."""
     from rosbags.highlevel import AnyReader
+
     with AnyReader([path]) as reader:
-        durabilities = {connection.topic: [profile.durability.name for profile in
-                                           connection.ext.offered_qos_profiles]
-                        for connection in reader.connections}
+        durabilities = {
+            connection.topic: [
+                profile.durability.name for profile in connection.ext.offered_qos_profiles
+            ]
+            for connection in reader.connections
+        }
         assert durabilities['/recorded/journal'] == ['TRANSIENT_LOCAL']
         assert durabilities['/recorded/ball/pose'] == ['VOLATILE']
-        assert all(connection.msgcount for connection in reader.connections
-                   if connection.topic.startswith('/recorded/ball/p') and 'place' not in connection.topic)
+        assert all(
+            connection.msgcount
+            for connection in reader.connections
+            if connection.topic.startswith('/recorded/ball/p') and 'place' not in connection.topic
+        )
         return set(durabilities)
 
 
@@ -92,7 +141,8 @@ def sim(start):
 
 
 def test_who_comes_late_gets_the_last_of_the_journal_and_the_configuration(
-        sim, make_golfer, make_client):
+    sim, make_golfer, make_client
+):
     golfer = make_golfer('/journal')
     golfer.play((8.0, 0.3, 5.0))
     golfer.heartbeat()
@@ -101,13 +151,21 @@ def test_who_comes_late_gets_the_last_of_the_journal_and_the_configuration(
         message = PointStamped()
         message.point.x = 1.0 + 0.01 * i
         places.publish(message)
-        wait_until(lambda: abs(place(golfer.poses[-1])[0] - message.point.x) < 1e-9, 'the ball was placed')
+        wait_until(
+            lambda: abs(place(golfer.poses[-1])[0] - message.point.x) < 1e-9, 'the ball was placed'
+        )
     golfer.reset()
     late = make_client('/journal').listen(String, 'journal', LASTING)
-    wait_until(lambda: '"kind": "config"' in ''.join(message.data for message in late), 'the journal came')
-    config, *entries = sorted((opened(message.data) for message in late), key=lambda entry: entry['entry'])
+    wait_until(
+        lambda: '"kind": "config"' in ''.join(message.data for message in late), 'the journal came'
+    )
+    config, *entries = sorted(
+        (opened(message.data) for message in late), key=lambda entry: entry['entry']
+    )
     assert config['parameters']['balls'] == ['ball'] and len(config['course']['digest']) == 64
-    assert {entry['kind'] for entry in entries[:-1]} == {'place'} and entries[-1]['kind'] == 'reset'
+    assert {entry['kind'] for entry in entries[:-1]} == {'place'} and entries[-1][
+        'kind'
+    ] == 'reset'
     assert [entry['entry'] for entry in entries] == list(range(entries[0]['entry'], 124))
     assert 99 <= len(entries) <= 100 and entries[-2]['position'] == [1.0 + 0.01 * 119, 0.0]
 
@@ -129,5 +187,6 @@ def test_a_recorder_without_a_sim_leaves_a_complete_bag(start, tmp_path):
 def topics_without_messages(path):
     """Names of the empty topics in a bag."""
     from rosbags.highlevel import AnyReader
+
     with AnyReader([path]) as reader:
         return {connection.topic for connection in reader.connections if not connection.msgcount}

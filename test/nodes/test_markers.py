@@ -1,24 +1,52 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Markers show the course and the play as they are."""
-from math import cos, hypot, pi, sin
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
 
-from hypothesis import given, strategies
-import numpy as np
-import pytest
-from rclpy.serialization import serialize_message
-from visualization_msgs.msg import Marker
+"""Markers show the course and the play as they are."""
+
+from math import cos, hypot, pi, sin
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.drawing.polygon_triangles import triangles
 from golf_sim_ros.drawing.zone_triangles import holds
 from golf_sim_ros.nodes.conversions import header
-from golf_sim_ros.nodes.markers.course_markers import (HOLE_DIAMETER, MARGIN, course_markers, outskirts,
-                                                       surface)
+from golf_sim_ros.nodes.markers.course_markers import (
+    course_markers,
+    HOLE_DIAMETER,
+    MARGIN,
+    outskirts,
+    surface,
+)
 from golf_sim_ros.nodes.markers.play_markers import CONTACTS, Scene, TRAIL, Trail
-from golf_sim_ros.physics import (Course, Cylinder, Heightmap, Material, Patch, Plane, Sphere, Water, World,
-                                  ground_height)
-from golf_sim_ros.physics import geometry
+from golf_sim_ros.physics import (
+    Course,
+    Cylinder,
+    geometry,
+    ground_height,
+    Heightmap,
+    Material,
+    Patch,
+    Plane,
+    Sphere,
+    Water,
+    World,
+)
 from golf_sim_ros.physics.geometry.cup import DEPTH
+from hypothesis import given, strategies
+import numpy as np
+import pytest
+from rclpy.serialization import serialize_message
+from visualization_msgs.msg import Marker
 
 GRASS, SAND = Material('grass', color=(0.1, 0.5, 0.1)), Material('sand', color=(0.9, 0.8, 0.6))
 SQUARE = ((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))
@@ -47,8 +75,10 @@ def surfaces(array):
     for marker in array.markers:
         if marker.ns == 'ground':
             corners = [(point.x, point.y, point.z) for point in marker.points]
-            color = tuple(round(part, 3) for part in (marker.color.r, marker.color.g, marker.color.b))
-            found[color] = [corners[i:i + 3] for i in range(0, len(corners), 3)]
+            color = tuple(
+                round(part, 3) for part in (marker.color.r, marker.color.g, marker.color.b)
+            )
+            found[color] = [corners[i : i + 3] for i in range(0, len(corners), 3)]
     return found
 
 
@@ -82,8 +112,12 @@ def test_a_concave_outline_and_a_clockwise_one_are_covered():
     assert total(triangles(tuple(reversed(corner)))) == pytest.approx(12.0)
 
 
-@given(strategies.lists(strategies.floats(0.3, 3.0), min_size=3, max_size=9),
-       strategies.floats(0.0, 6.3), strategies.floats(4.0, 6.0), strategies.floats(4.0, 6.0))
+@given(
+    strategies.lists(strategies.floats(0.3, 3.0), min_size=3, max_size=9),
+    strategies.floats(0.0, 6.3),
+    strategies.floats(4.0, 6.0),
+    strategies.floats(4.0, 6.0),
+)
 def test_triangles_and_a_star_shaped_cut_make_up_the_outline(radii, turn, x, y):
     angles = [turn + 2 * pi * i / len(radii) for i in range(len(radii))]
     cut = tuple((x + r * cos(a), y + r * sin(a)) for r, a in zip(radii, angles))
@@ -94,11 +128,15 @@ def test_triangles_and_a_star_shaped_cut_make_up_the_outline(radii, turn, x, y):
 
 def test_a_patch_is_shown_where_it_lies_in_its_colour():
     patch = Patch((5.0, 1.0, 0.5), (0.0, -0.6, 0.8), 0.3, 8.0, 4.0, SAND)
-    (color, pieces), = surfaces(course_markers(Course((patch,), tee=(5.0, 1.0)), 'course')).items()
+    ((color, pieces),) = surfaces(
+        course_markers(Course((patch,), tee=(5.0, 1.0)), 'course')
+    ).items()
     assert color == (0.9, 0.8, 0.6)
     for corner in [corner for piece in pieces for corner in piece]:
         assert -0.6 * (corner[1] - 1.0) + 0.8 * (corner[2] - 0.5) == pytest.approx(0.0, abs=1e-9)
-    assert total([[corner[:2] for corner in piece] for piece in pieces]) == pytest.approx(8 * 4 * 0.8)
+    assert total([[corner[:2] for corner in piece] for piece in pieces]) == pytest.approx(
+        8 * 4 * 0.8
+    )
 
 
 def test_a_planes_cut_is_open_and_the_plane_is_drawn_around_the_course():
@@ -109,9 +147,14 @@ def test_a_planes_cut_is_open_and_the_plane_is_drawn_around_the_course():
 
 
 def test_a_zone_is_shown_in_its_colour_where_there_is_ground_and_later_ones_over_earlier():
-    turf, zones = Plane(material=GRASS, cut=(PIT,)), ((SAND, SQUARE), (GRASS, PIT), (SAND, PIT[:3]))
+    turf, zones = (
+        Plane(material=GRASS, cut=(PIT,)),
+        ((SAND, SQUARE), (GRASS, PIT), (SAND, PIT[:3])),
+    )
     found = surfaces(course_markers(Course((turf,), zones=zones), 'course'))
-    assert total([[corner[:2] for corner in piece] for piece in found[0.9, 0.8, 0.6]]) == pytest.approx(100.0)
+    assert total(
+        [[corner[:2] for corner in piece] for piece in found[0.9, 0.8, 0.6]]
+    ) == pytest.approx(100.0)
     assert covers(found[0.9, 0.8, 0.6], 5.1, 5.2) and not covers(found[0.1, 0.5, 0.1], 5.1, 5.2)
     under = surfaces(course_markers(Course((Plane(material=GRASS),), zones=zones), 'course'))
     assert covers(under[0.9, 0.8, 0.6], 27.0, -3.0) and covers(under[0.1, 0.5, 0.1], 22.0, 3.0)
@@ -119,10 +162,14 @@ def test_a_zone_is_shown_in_its_colour_where_there_is_ground_and_later_ones_over
 
 def test_a_height_map_is_shown_at_its_heights_and_painted_with_zones():
     heights = np.add.outer(0.1 * np.arange(11), 0.02 * np.arange(21))
-    course = Course((Heightmap(heights, (0.0, 0.0), 1.0, GRASS),), tee=(1.0, 1.0), zones=((SAND, SQUARE),))
+    course = Course(
+        (Heightmap(heights, (0.0, 0.0), 1.0, GRASS),), tee=(1.0, 1.0), zones=((SAND, SQUARE),)
+    )
     found = surfaces(course_markers(course, 'course'))
     for color in (0.1, 0.5, 0.1), (0.9, 0.8, 0.6):
-        assert total([[corner[:2] for corner in piece] for piece in found[color]]) == pytest.approx(100.0)
+        assert total(
+            [[corner[:2] for corner in piece] for piece in found[color]]
+        ) == pytest.approx(100.0)
         for x, y, z in (corner for piece in found[color] for corner in piece):
             assert z == pytest.approx(0.02 * x + 0.1 * y)
     assert covers(found[0.9, 0.8, 0.6], 9.3, 9.6) and covers(found[0.1, 0.5, 0.1], 10.3, 9.6)
@@ -133,7 +180,11 @@ def test_a_large_height_map_is_thinned_out_and_its_outline_stays():
     array = course_markers(course, 'course')
     assert len(serialize_message(array)) < 5e6
     corners = np.array([c for piece in surfaces(array)[0.1, 0.5, 0.1] for c in piece])
-    assert corners.min(0).tolist() == [0.0, 0.0, 0.0] and corners.max(0).tolist() == [401.0, 300.0, 0.0]
+    assert corners.min(0).tolist() == [0.0, 0.0, 0.0] and corners.max(0).tolist() == [
+        401.0,
+        300.0,
+        0.0,
+    ]
 
 
 def test_where_a_patch_lies_in_the_plane_only_the_patch_is_shown():
@@ -144,19 +195,23 @@ def test_where_a_patch_lies_in_the_plane_only_the_patch_is_shown():
 
 
 def test_water_is_blue_over_its_polygon_at_its_level_and_what_is_below_shines_through():
-    course = Course((Plane(material=GRASS, cut=(PIT,)),), water=(Water(PIT, -0.2), Water(SQUARE, 0.5)))
+    course = Course(
+        (Plane(material=GRASS, cut=(PIT,)),), water=(Water(PIT, -0.2), Water(SQUARE, 0.5))
+    )
     array = course_markers(course, 'course')
-    made, = (marker for marker in array.markers if marker.ns == 'water')
+    (made,) = (marker for marker in array.markers if marker.ns == 'water')
     corners = [(point.x, point.y, point.z) for point in made.points]
-    pieces = [corners[i:i + 3] for i in range(0, len(corners), 3)]
+    pieces = [corners[i : i + 3] for i in range(0, len(corners), 3)]
     assert total(pieces) == pytest.approx(200.0) and 0.3 < made.color.a < 0.9
     assert made.color.b > max(made.color.r, made.color.g)
     assert {(x > 15.0, z) for x, _, z in corners} == {(True, -0.2), (False, 0.5)}
 
 
 def test_an_upright_patch_and_an_upright_plane_are_shown():
-    for shape in (Patch((5.0, 0.0, 1.0), (1.0, 0.0, 0.0), 1.5707963, 4.0, 2.0, SAND),
-                  Plane((5.0, 0.0, 0.0), (1.0, 0.0, 0.0), SAND)):
+    for shape in (
+        Patch((5.0, 0.0, 1.0), (1.0, 0.0, 0.0), 1.5707963, 4.0, 2.0, SAND),
+        Plane((5.0, 0.0, 0.0), (1.0, 0.0, 0.0), SAND),
+    ):
         array = course_markers(Course((Plane(material=GRASS), shape)), 'course')
         corners = [corner for piece in surfaces(array)[0.9, 0.8, 0.6] for corner in piece]
         assert len(corners) == 6 and all(corner[0] == pytest.approx(5.0) for corner in corners)
@@ -175,8 +230,10 @@ def test_the_shipped_course_is_few_markers_of_every_material_with_stamp_0(course
 
 def test_over_the_shipped_course_what_is_highest_is_what_is_shown(course):
     shown = surfaces(course_markers(course, 'course'))
-    colors = {shape.material.name: tuple(round(part, 3) for part in shape.material.color)
-              for shape in course.ground}
+    colors = {
+        shape.material.name: tuple(round(part, 3) for part in shape.material.color)
+        for shape in course.ground
+    }
     low, _, high, _ = outskirts(course)
     for part in range(1, 250):  # multiples of two irrational numbers fill the rectangle evenly
         x = low[0] + part * 0.7548776662 % 1.0 * (high[0] - low[0])
@@ -194,8 +251,12 @@ def test_the_hole_has_a_disc_a_stick_and_a_flag_and_a_course_without_has_none(co
     assert stick.pose.position.z - 0.5 * stick.scale.z == pytest.approx(z - DEPTH)
     assert max(point.z for point in flag.points) == pytest.approx(z - DEPTH + stick.scale.z)
     bare = course._replace(flagstick=False)
-    assert [m.type for m in course_markers(bare, 'course').markers if m.ns == 'hole'] == [Marker.CYLINDER]
-    assert not [m for m in course_markers(course._replace(hole=None), 'course').markers if m.ns == 'hole']
+    assert [m.type for m in course_markers(bare, 'course').markers if m.ns == 'hole'] == [
+        Marker.CYLINDER
+    ]
+    assert not [
+        m for m in course_markers(course._replace(hole=None), 'course').markers if m.ns == 'hole'
+    ]
 
 
 def test_a_tree_is_a_cylinder_and_a_sphere_in_their_colours():
@@ -209,7 +270,7 @@ def test_a_tree_is_a_cylinder_and_a_sphere_in_their_colours():
 
 
 def test_the_tee_stands_on_the_ground_on_both_sides_of_the_ball(course):
-    tee, = [m for m in course_markers(course, 'course').markers if m.ns == 'tee']
+    (tee,) = [m for m in course_markers(course, 'course').markers if m.ns == 'tee']
     left, right = tee.points
     assert left.y - course.tee[1] == course.tee[1] - right.y > 1.0
     assert left.z == ground_height(course, left.x, left.y)[0]
@@ -250,6 +311,7 @@ def test_the_wind_is_an_arrow_of_a_metre_for_each_metre_a_second_and_none_when_c
     def arrow(wind):
         array = Scene(world).markers(header('course', 0, 0.0), world, wind)
         return next(marker for marker in array.markers if marker.ns == 'wind')
+
     tail, tip = arrow((3.0, 4.0, 0.0)).points
     assert hypot(tip.x - tail.x, tip.y - tail.y) == pytest.approx(5.0) and tip.z == tail.z
     assert arrow((0.0, 0.0, 0.0)).action == Marker.DELETE
@@ -266,7 +328,7 @@ def test_only_the_last_contacts_are_shown(world):
 def test_a_kind_of_ground_without_a_function_of_its_own_is_shown_by_its_heights():
     patch = Patch((1.0, 2.0, 0.5), (-0.2, 0.1, 1.0), 0.3, 4.0, 2.0, GRASS)
     low, high = geometry.extent(patch)
-    (material, shown), = surface.dispatch(object)(patch, Course((Plane(), patch)), 0)
+    ((material, shown),) = surface.dispatch(object)(patch, Course((Plane(), patch)), 0)
     assert material == GRASS
     x, y, z = shown.reshape(-1, 3).T
     np.testing.assert_allclose(z, 0.5 + 0.2 * (x - 1.0) - 0.1 * (y - 2.0), atol=1e-9)

@@ -1,22 +1,37 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Is the sim there? Its heartbeat says so, and `shoot` what it means for the shot."""
+
 import json
 import signal
 
+from processes import parameters, READY, wait_until
 import pytest
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
-
-from processes import parameters, READY, wait_until
 
 
 @pytest.fixture
 def sim_in(start):
     """`sim_in('/ns')` gives a sim that is ready there."""
+
     def make(namespace, **more):
         sim = start('sim_node', *parameters(namespace, **more))
         sim.wait_for(READY)
         return sim
+
     return make
 
 
@@ -28,8 +43,11 @@ def shooting(start, namespace, *more):
 def struck(client):
     """A list that fills with the journal's strikes."""
     entries = client.listen(String, 'journal', 100)
-    return lambda: [entry for entry in map(lambda message: json.loads(message.data), entries)
-                    if entry['kind'] == 'strike']
+    return lambda: [
+        entry
+        for entry in map(lambda message: json.loads(message.data), entries)
+        if entry['kind'] == 'strike'
+    ]
 
 
 def test_a_sim_tells_its_heartbeat_and_a_stopped_one_does_not(sim_in, make_client):
@@ -52,12 +70,15 @@ def test_a_sim_tells_its_heartbeat_and_a_stopped_one_does_not(sim_in, make_clien
 def silent(beats):
     """Whether no beat comes for as long as three of them take."""
     import threading
+
     count = len(beats)
     threading.Event().wait(1.5)
     return len(beats) == count
 
 
-def test_a_sim_that_is_killed_in_flight_and_started_anew_has_lost_the_shot(start, sim_in, make_client):
+def test_a_sim_that_is_killed_in_flight_and_started_anew_has_lost_the_shot(
+    start, sim_in, make_client
+):
     sim = sim_in('/killed')
     strikes = struck(make_client('/killed'))
     shoot = shooting(start, '/killed')
@@ -76,15 +97,19 @@ def test_a_sim_that_is_killed_in_flight_and_stays_away_is_given_up(start, sim_in
     wait_until(strikes, 'the ball was struck')
     sim.stop(signal.SIGKILL)
     assert shoot.wait() == 1
-    assert shoot.lines[-1].endswith('went away before the shot ended, and was not back within 3 s\n')
+    assert shoot.lines[-1].endswith(
+        'went away before the shot ended, and was not back within 3 s\n'
+    )
 
 
 def test_a_sim_that_was_killed_before_the_strike_is_not_struck(start, sim_in):
     sim_in('/dead').stop(signal.SIGKILL)  # its readers are matched for some more seconds
     shoot = start('cli.shoot', 'driver', '--timeout', '4', '--namespace', '/dead')
     assert shoot.wait() == 1
-    assert shoot.lines == ['shoot: no sim answers on /dead/shot yet\n',
-                           'shoot: no sim answers on /dead/shot within 4 s\n']
+    assert shoot.lines == [
+        'shoot: no sim answers on /dead/shot yet\n',
+        'shoot: no sim answers on /dead/shot within 4 s\n',
+    ]
 
 
 def test_a_sim_that_was_killed_before_the_strike_and_starts_anew_is_struck(start, sim_in):
@@ -96,7 +121,9 @@ def test_a_sim_that_was_killed_before_the_strike_and_starts_anew_is_struck(start
     assert 'carry' in shoot.output
 
 
-def test_a_sim_that_hangs_for_a_while_is_gone_and_back_and_the_shot_is_played(start, sim_in, make_client):
+def test_a_sim_that_hangs_for_a_while_is_gone_and_back_and_the_shot_is_played(
+    start, sim_in, make_client
+):
     sim = sim_in('/hangs', real_time_factor=4.0)
     strikes = struck(make_client('/hangs'))
     shoot = shooting(start, '/hangs')
@@ -126,19 +153,24 @@ def test_a_pause_is_told_and_waited_for(start, sim_in, make_client):
 def test_who_struck_and_was_not_heard_is_told_so(start, make_client):
     client = make_client('/deaf')
     beats = client.publisher(String, 'heartbeat', wait=False)
-    client.node.create_timer(0.3, lambda: beats.publish(
-        String(data='{"session": 1, "shots": 7, "paused": false}')))
+    client.node.create_timer(
+        0.3, lambda: beats.publish(String(data='{"session": 1, "shots": 7, "paused": false}'))
+    )
     listen_as_a_sim(client)
     shoot = shooting(start, '/deaf')
     assert shoot.wait() == 1
-    assert shoot.lines[-1] == 'shoot: nobody took the strike: it was lost on its way; strike again\n'
+    assert (
+        shoot.lines[-1] == 'shoot: nobody took the strike: it was lost on its way; strike again\n'
+    )
 
 
 def listen_as_a_sim(client):
     """Match a strike's publisher and show a course, but take no strike."""
     from geometry_msgs.msg import Twist
-    from visualization_msgs.msg import Marker, MarkerArray
     from processes import LATCHED
+    from visualization_msgs.msg import Marker, MarkerArray
+
     client.node.create_subscription(Twist, 'shot', lambda message: None, 10)
     client.publisher(MarkerArray, 'course/markers', LATCHED, wait=False).publish(
-        MarkerArray(markers=[Marker(ns='ground')]))
+        MarkerArray(markers=[Marker(ns='ground')])
+    )

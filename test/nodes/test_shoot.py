@@ -1,17 +1,30 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """`shoot` over DDS: with the real sim, and with one that answers as the test wants it to."""
+
 import json
 from math import atan2, cos, degrees, hypot, radians, sin
 import signal
 
-import pytest
 from geometry_msgs.msg import PoseStamped, Twist
+from processes import Client, LASTING, LATCHED, parameters, place, wait_until
+import pytest
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
 import yaml
-
-from processes import Client, LASTING, LATCHED, parameters, place, wait_until
 
 MPH, YARD = 0.44704, 0.9144
 
@@ -55,10 +68,27 @@ class ScriptedSim(Client):
     def tell_result(self, **changes):
         velocity, spin = ([round(number, 4) for number in vector] for vector in self.struck[-1])
         result = {
-            'shot': len(self.struck), 'ball': self.ball, 'status': 'at_rest', 'carry': 91.44,
-            'carry_side': 0.0, 'total': 100.0, 'side': 0.0, 'apex': 20.0, 'flight_time': 4.0, 'duration': 8.0,
-            'to_hole': None, 'lie': 'green', 'landing_speed': 20.0, 'landing_angle': 0.7, 'bounces': 4,
-            'time': 9.0, 'position': [110.0, 20.0, 0.02], 'velocity': velocity, 'spin': spin, 'reason': ''}
+            'shot': len(self.struck),
+            'ball': self.ball,
+            'status': 'at_rest',
+            'carry': 91.44,
+            'carry_side': 0.0,
+            'total': 100.0,
+            'side': 0.0,
+            'apex': 20.0,
+            'flight_time': 4.0,
+            'duration': 8.0,
+            'to_hole': None,
+            'lie': 'green',
+            'landing_speed': 20.0,
+            'landing_angle': 0.7,
+            'bounces': 4,
+            'time': 9.0,
+            'position': [110.0, 20.0, 0.02],
+            'velocity': velocity,
+            'spin': spin,
+            'reason': '',
+        }
         self.results.publish(String(data=json.dumps({**result, **changes})))
 
 
@@ -70,6 +100,7 @@ def scripted(domain):
     def make(namespace, **how):
         sims.append(ScriptedSim(namespace, **how))
         return sims[-1]
+
     yield make
     for sim in sims:
         sim.close()
@@ -78,22 +109,28 @@ def scripted(domain):
 @pytest.fixture
 def shoot(start):
     """`shoot('driver --print')` gives exit code and output; it looks for a sim for long."""
+
     def run(line):
         process = start('cli.shoot', '--timeout', '60', *line.split())
         code = process.wait()  # on a busy machine a sim may be found late, and that be said
         return code, ''.join(line for line in process.lines if not line.endswith(' yet\n'))
+
     return run
 
 
 def test_without_a_sim_it_says_so_in_one_line_and_exits_with_one(shoot):
     assert shoot('driver --namespace /nobody --timeout 0.5') == (
-        1, 'shoot: no sim answers on /nobody/shot within 0.5 s\n')
+        1,
+        'shoot: no sim answers on /nobody/shot within 0.5 s\n',
+    )
 
 
 def test_what_listens_but_shows_no_course_is_no_sim(shoot, scripted):
     scripted('/blind', course=False)
     assert shoot('driver --namespace /blind --timeout 6') == (
-        1, 'shoot: a sim listens on /blind/shot, but shows no course within 6 s\n')
+        1,
+        'shoot: a sim listens on /blind/shot, but shows no course within 6 s\n',
+    )
 
 
 def test_a_played_shot_is_printed_as_a_table_and_exits_with_zero(shoot, scripted):
@@ -102,13 +139,18 @@ def test_a_played_shot_is_printed_as_a_table_and_exits_with_zero(shoot, scripted
     assert code == 0
     assert len(sim.struck) == 1
     lines = output.splitlines()
-    assert lines[0] == ('pw: 102.0 mph, launch 24.2 deg, azimuth 0.0 deg, backspin 9304 rpm, sidespin 0 rpm')
+    assert lines[0] == (
+        'pw: 102.0 mph, launch 24.2 deg, azimuth 0.0 deg, backspin 9304 rpm, sidespin 0 rpm'
+    )
     assert 'ended          at rest, green' in lines
     assert 'carry            100.00 yd' in lines
 
 
 def test_a_rejected_shot_exits_with_one_and_the_reason_in_one_line(shoot, scripted):
-    scripted('/strict').answer = lambda number: {'status': 'rejected', 'reason': 'the ball is moving'}
+    scripted('/strict').answer = lambda number: {
+        'status': 'rejected',
+        'reason': 'the ball is moving',
+    }
     code, output = shoot('pw --namespace /strict')
     assert code == 1
     assert output.splitlines()[1:] == ['shoot: rejected: the ball is moving']
@@ -134,10 +176,15 @@ def test_the_results_of_other_shots_are_not_taken_for_its_own(shoot, scripted):
     sim = scripted('/busy')
 
     def others_first(number):
-        for change in ({'velocity': [1.0, 2.0, 3.0]}, {'spin': [1.0, 2.0, 3.0]},
-                       {'velocity': [None, 2.0, 3.0]}, {'ball': 'red'}):
+        for change in (
+            {'velocity': [1.0, 2.0, 3.0]},
+            {'spin': [1.0, 2.0, 3.0]},
+            {'velocity': [None, 2.0, 3.0]},
+            {'ball': 'red'},
+        ):
             sim.tell_result(carry=1.0, **change)
         return {}
+
     sim.answer = others_first
     code, output = shoot('pw --namespace /busy --ball ball')
     assert code == 0
@@ -157,6 +204,7 @@ def test_a_shot_under_way_is_not_ended_by_the_rejection_of_another_just_like_it(
             sim.tell_result(status='rejected', reason='the ball is moving', shot=2)
         if now == 50:
             sim.tell_result()
+
     sim.answer, sim.at_tick = lambda number: None, fly
     code, output = shoot('pw --namespace /twins')
     assert code == 0
@@ -170,6 +218,7 @@ def test_a_late_rejection_counts_where_the_ball_has_not_moved(shoot, scripted):
     def resume():
         if sim.struck and next(ticks) == 40:
             sim.tell_result(status='rejected', reason='the ball is moving')
+
     sim.answer, sim.at_tick = lambda number: None, resume
     code, output = shoot('pw --namespace /paused')
     assert code == 1
@@ -184,6 +233,7 @@ def test_it_exits_with_one_when_the_sim_goes_away_during_the_shot(shoot, scripte
         sim.node.destroy_publisher(sim.results)
         sim.results = sim.publisher(String, 'elsewhere', wait=False)
         return other
+
     sim.answer = leave
     code, output = shoot('pw --namespace /leaving')
     assert code == 1
@@ -198,14 +248,17 @@ def test_an_interrupt_ends_the_wait_without_a_traceback(start, scripted):
     assert 'Traceback' not in process.output
 
 
-@pytest.mark.parametrize('arguments, topic', [
-    ('', '/shot'),
-    ('--ball red', '/red/shot'),
-    ('--namespace /range', '/range/shot'),
-    ('--ball red --namespace range', '/range/red/shot'),
-    ('--ros-args -r __ns:=/links', '/links/shot'),
-    ('--ros-args -r shot:=/elsewhere', '/elsewhere'),
-])
+@pytest.mark.parametrize(
+    'arguments, topic',
+    [
+        ('', '/shot'),
+        ('--ball red', '/red/shot'),
+        ('--namespace /range', '/range/shot'),
+        ('--ball red --namespace range', '/range/red/shot'),
+        ('--ros-args -r __ns:=/links', '/links/shot'),
+        ('--ros-args -r shot:=/elsewhere', '/elsewhere'),
+    ],
+)
 def test_print_needs_no_sim_and_knows_namespace_and_remappings(shoot, arguments, topic):
     code, output = shoot(f'driver --print {arguments}')
     assert code == 0
@@ -213,8 +266,9 @@ def test_print_needs_no_sim_and_knows_namespace_and_remappings(shoot, arguments,
     assert output.count('\n') == 1
 
 
-@pytest.mark.parametrize('arguments', [
-    '--ros-args -r broken', '--ros-args --unknown-option', 'niblick', 'putter'])
+@pytest.mark.parametrize(
+    'arguments', ['--ros-args -r broken', '--ros-args --unknown-option', 'niblick', 'putter']
+)
 def test_wrong_arguments_exit_with_two_and_no_traceback(shoot, arguments):
     code, output = shoot(f'driver {arguments}')
     assert code == 2
@@ -259,7 +313,10 @@ def test_backspin_stays_backspin_when_the_shot_is_aimed(shoot, scripted):
 
 def test_aiming_on_a_course_without_a_hole_exits_with_one(shoot, scripted):
     scripted('/endless')
-    assert shoot('pw --aim hole --namespace /endless') == (1, 'shoot: this course has no hole to aim at\n')
+    assert shoot('pw --aim hole --namespace /endless') == (
+        1,
+        'shoot: this course has no hole to aim at\n',
+    )
 
 
 def test_aiming_with_a_ball_of_another_name_exits_with_one_and_a_hint(shoot, scripted):
@@ -297,7 +354,9 @@ def test_the_real_sim_plays_a_shot_and_the_table_is_its_result(shoot, golfer):
 
 
 @pytest.mark.parametrize('axis, sign', [(30, -1.0), (-30, 1.0)])
-def test_a_ball_with_its_spin_axis_tilted_to_the_right_curves_to_the_right(shoot, golfer, axis, sign):
+def test_a_ball_with_its_spin_axis_tilted_to_the_right_curves_to_the_right(
+    shoot, golfer, axis, sign
+):
     assert shoot(f'pw --power 0.5 --axis {axis} --namespace /real')[0] == 0
     wait_until(lambda: golfer.results, 'the result came')
     assert sign * json.loads(golfer.results[-1].data)['carry_side'] > 0.5
@@ -312,7 +371,9 @@ def test_a_putt_on_the_real_sim_never_leaves_the_ground(shoot, golfer):
 def test_a_shot_at_the_real_sims_hole_goes_towards_its_marker(shoot, golfer):
     courses = golfer.listen(MarkerArray, 'course/markers', LATCHED)
     wait_until(lambda: courses, 'the course came')
-    hole = next(one.pose.position for one in courses[-1].markers if (one.ns, one.id) == ('hole', 0))
+    hole = next(
+        one.pose.position for one in courses[-1].markers if (one.ns, one.id) == ('hole', 0)
+    )
     x, y, _ = place(golfer.poses[-1])
     heading = atan2(hole.y - y, hole.x - x)
     code, _ = shoot('putter --speed 5 --aim hole --azimuth 1 --namespace /real')
@@ -320,11 +381,15 @@ def test_a_shot_at_the_real_sims_hole_goes_towards_its_marker(shoot, golfer):
     wait_until(lambda: golfer.results, 'the result came')
     velocity = json.loads(golfer.results[-1].data)['velocity']
     direction = heading - radians(1.0)
-    assert velocity == pytest.approx([5 * MPH * cos(direction), 5 * MPH * sin(direction), 0.0], abs=1e-3)
+    assert velocity == pytest.approx(
+        [5 * MPH * cos(direction), 5 * MPH * sin(direction), 0.0], abs=1e-3
+    )
 
 
 def test_a_putt_of_3_m_can_be_holed_and_the_result_says_so(shoot, start, make_golfer):
-    start('sim_node', *parameters('/green', course='putting_green', real_time_factor=8.0)).wait_for('ready')
+    start(
+        'sim_node', *parameters('/green', course='putting_green', real_time_factor=8.0)
+    ).wait_for('ready')
     golfer = make_golfer('/green')
     code, output = shoot('putter --units si --speed 2.6 --azimuth -3.7 --namespace /green')
     assert code == 0
@@ -341,7 +406,8 @@ def test_a_ball_in_motion_rejects_the_next_shot(start, golfer):
     rest = place(golfer.poses[-1])
     golfer.strike((5.0, 0.0, 40.0))
     wait_until(lambda: place(golfer.poses[-1]) != rest, 'the ball moves')
-    golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=True))   # so that it still does then
+    # so that it still does then
+    golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=True))
     second = start('cli.shoot', 'pw', '--timeout', '60', '--namespace', '/real')
     second.wait_for('pw: 102.0 mph')
     golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=False))

@@ -1,23 +1,36 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """sim_node over DDS: what a player, a late viewer and a wind generator meet."""
+
 import json
 import signal
 import threading
 
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped, PoseStamped, Twist, TwistStamped, Vector3Stamped
+from golf_sim_ros.nodes.conversions import triple
+from golf_sim_ros.nodes.parameters import Parameters
+from processes import LASTING, LATCHED, parameters, place, READY, seconds, wait_until
 import pytest
-import rclpy
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, ListParameters, SetParameters
+import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
-
-from golf_sim_ros.nodes.conversions import triple
-from golf_sim_ros.nodes.parameters import Parameters
-from processes import LASTING, LATCHED, parameters, place, READY, seconds, wait_until
 
 CHIP, CHIP_SPIN = (9.0, 0.5, 6.0), (0.0, -100.0, 0.0)
 PERIOD, TICK = 1 / 50, 1 / 250  # s, by default
@@ -47,9 +60,13 @@ def test_a_twist_moves_the_ball_and_exactly_one_result_comes_back(golfer):
     assert result['status'] == 'at_rest' and result['ball'] == 'ball'
     end = place(golfer.poses[-1])
     assert end == pytest.approx(result['position'], abs=1e-4)
-    assert result['total'] == pytest.approx(((end[0] - start[0])**2 + (end[1] - start[1])**2)**0.5, abs=1e-4)
+    assert result['total'] == pytest.approx(
+        ((end[0] - start[0]) ** 2 + (end[1] - start[1]) ** 2) ** 0.5, abs=1e-4
+    )
     assert result['total'] > result['carry'] > 5.0
-    assert max(place(pose)[2] for pose in golfer.poses) == pytest.approx(start[2] + result['apex'], abs=0.01)
+    assert max(place(pose)[2] for pose in golfer.poses) == pytest.approx(
+        start[2] + result['apex'], abs=0.01
+    )
 
 
 def test_shot_without_a_ball_strikes_the_first_ball(golfer):
@@ -86,7 +103,9 @@ def test_a_pose_turns_with_the_spin_and_stays_of_unit_length(golfer):
     golfer.heartbeat()
     turns = [pose.pose.orientation for pose in golfer.poses]
     assert len({(turn.x, turn.y, turn.z, turn.w) for turn in turns}) > 10
-    assert all(turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2 == pytest.approx(1.0) for turn in turns)
+    assert all(
+        turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2 == pytest.approx(1.0) for turn in turns
+    )
 
 
 def test_twist_tells_velocity_and_spin_in_the_courses_frame(golfer):
@@ -107,8 +126,19 @@ def test_collisions_are_told_as_json_in_the_contracts_order_and_as_points(golfer
     golfer.heartbeat()
     impacts = golfer.impacts()[told:]
     assert len(impacts) == result['bounces'] == len(golfer.contacts) - before
-    assert list(impacts[0]) == ['time', 'ball', 'kind', 'with', 'position', 'normal', 'velocity_before',
-                                'velocity_after', 'spin_before', 'spin_after', 'impulse']
+    assert list(impacts[0]) == [
+        'time',
+        'ball',
+        'kind',
+        'with',
+        'position',
+        'normal',
+        'velocity_before',
+        'velocity_after',
+        'spin_before',
+        'spin_after',
+        'impulse',
+    ]
     first = impacts[0]
     assert (first['kind'], first['ball']) == ('bounce', 'ball')
     assert first['velocity_before'][2] < 0 < first['velocity_after'][2]
@@ -137,11 +167,19 @@ def test_a_second_volatile_viewer_gets_the_course_too(golfer, make_client):
         wait_until(lambda: seen, 'the course came', 10.0)
 
 
-@pytest.mark.parametrize('number, qos', list(enumerate([
-    QoSProfile(depth=10),
-    QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL),
-    QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT),
-])), ids=['default', 'transient local', 'best effort'])
+@pytest.mark.parametrize(
+    'number, qos',
+    list(
+        enumerate(
+            [
+                QoSProfile(depth=10),
+                QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL),
+                QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT),
+            ]
+        )
+    ),
+    ids=['default', 'transient local', 'best effort'],
+)
 def test_a_wind_of_any_quality_of_service_reaches_the_sim(sim, client, number, qos):
     wind = (1.0 + number, -2.0, 0.0)
     scenes = client.listen(MarkerArray, 'play/markers')
@@ -158,6 +196,7 @@ def blows(winds, scenes, wind):
     def seen():
         winds.publish(message)
         return scenes and arrow(scenes[-1]) == pytest.approx(wind)
+
     return wait_until(seen, f'the sim felt the wind {wind}', 20.0)
 
 
@@ -196,7 +235,9 @@ def test_diagnostics_tell_how_the_simulation_keeps_up_and_what_it_simulates(sim,
     assert all(share >= 0.0 for share in shares) and sum(shares[:3]) <= shares[4] + 0.01
     assert float(values['error at most, first touch [m]']) == 1e-3
     assert float(values['error at most, rest [m]']) == 1e-2
-    assert values['effects asked for in vain'] == 'none' and 'effect off: linear_drag' not in values
+    assert (
+        values['effects asked for in vain'] == 'none' and 'effect off: linear_drag' not in values
+    )
     assert 'gravity' in values['effects on'] and values['effect off: wind']
     assert 'wind age [s]' in values
 
@@ -221,7 +262,9 @@ def test_a_strike_while_paused_is_played_when_time_goes_on(golfer):
     golfer.heartbeat()
     assert golfer.poses[-1] == still
     assert golfer.call(SetBool, 'golf_sim/pause', SetBool.Request(data=False)).success
-    assert wait_until(lambda: golfer.results_of((8.1, 0.0, 5.0)), 'it came')[0]['status'] == 'at_rest'
+    assert (
+        wait_until(lambda: golfer.results_of((8.1, 0.0, 5.0)), 'it came')[0]['status'] == 'at_rest'
+    )
 
 
 def test_a_placed_ball_lies_on_the_ground_and_is_struck_from_there(golfer):
@@ -265,11 +308,15 @@ def test_every_parameter_is_described(sim, client):
     own = [name for name in names if name != 'use_sim_time' and '.' not in name]
     assert {*Parameters._fields} <= set(own)
     request = DescribeParameters.Request(names=own)
-    described = client.call(DescribeParameters, 'golf_sim/describe_parameters', request).descriptors
+    described = client.call(
+        DescribeParameters, 'golf_sim/describe_parameters', request
+    ).descriptors
     own_ones = [d for d in described if d.name not in ('start_type_description_service',)]
     assert all(descriptor.description for descriptor in own_ones)
     assert [d.name for d in own_ones if not d.read_only] == ['real_time_factor', 'accuracy']
-    assert all(d.floating_point_range for d in own_ones if d.type == ParameterType.PARAMETER_DOUBLE)
+    assert all(
+        d.floating_point_range for d in own_ones if d.type == ParameterType.PARAMETER_DOUBLE
+    )
 
 
 def test_the_log_tells_the_course_the_effects_a_line_to_paste_and_every_shot(golfer, sim):
@@ -277,7 +324,11 @@ def test_the_log_tells_the_course_the_effects_a_line_to_paste_and_every_shot(gol
     line = sim.wait_for(f'total {result["total"]:.0f} m')
     assert 'wedge-like shot: carry' in line and f'{result["to_hole"]:.0f} m to the hole' in line
     assert 'course: Golf without friends' in sim.output
-    assert 'simulated: ' in sim.output and 'left out: ' in sim.output and 'wind (no wind)' in sim.output
+    assert (
+        'simulated: ' in sim.output
+        and 'left out: ' in sim.output
+        and 'wind (no wind)' in sim.output
+    )
     assert "ros2 topic pub --once /shot geometry_msgs/msg/Twist '{linear:" in sim.output
 
 
@@ -307,7 +358,11 @@ def test_two_balls_are_struck_apart_and_fly_at_the_same_time(start, make_golfer)
     red.strike(CHIP)
     result = blue.play((9.0, -0.5, 6.0))
     other = wait_until(lambda: red.results_of(CHIP), 'the other result came')[0]
-    assert (result['ball'], other['ball'], {result['shot'], other['shot']}) == ('blue', 'red', {1, 2})
+    assert (result['ball'], other['ball'], {result['shot'], other['shot']}) == (
+        'blue',
+        'red',
+        {1, 2},
+    )
     assert result['total'] == pytest.approx(other['total'], rel=1e-6)
     assert len(red.results_of(CHIP)) == 1
 
@@ -337,11 +392,18 @@ def test_a_namespace_and_a_remapped_topic_appear_in_the_line_to_paste(start):
 
 def test_two_sims_in_one_process_play_apart(domain, make_golfer):
     from golf_sim_ros.nodes.sim_node import SimNode
+
     context = rclpy.context.Context()
     rclpy.init(context=context, domain_id=domain)
     names = ('/left', '/right')
-    sims = [SimNode(context=context, namespace=name, parameter_overrides=[
-        rclpy.Parameter('frame_id', value=name[1:])]) for name in names]
+    sims = [
+        SimNode(
+            context=context,
+            namespace=name,
+            parameter_overrides=[rclpy.Parameter('frame_id', value=name[1:])],
+        )
+        for name in names
+    ]
     executor = rclpy.executors.SingleThreadedExecutor(context=context)
     for sim in sims:
         executor.add_node(sim)

@@ -1,13 +1,26 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The compiled engine takes over from plain Python by itself, where the play calls for it, over DDS."""
+
 import signal
 
 from diagnostic_msgs.msg import DiagnosticArray
-import pytest
-
 from golf_sim_ros.cli.resimulate import main
 from golf_sim_ros.physics.engine.engines import missing
 from processes import parameters, READY, wait_until
+import pytest
 
 BALLS = [f'b{number}' for number in range(20)]
 SPIN = (0.0, -280.0, 0.0)
@@ -22,7 +35,10 @@ def values(messages):
 
 def strike_all(golfers, number):
     """Strike every ball, as never before, and wait for all results."""
-    strikes = [(round(36.0 + 0.01 * number, 2), round(0.1 * i - 1.0, 1), 14.0) for i in range(len(golfers))]
+    strikes = [
+        (round(36.0 + 0.01 * number, 2), round(0.1 * i - 1.0, 1), 14.0)
+        for i in range(len(golfers))
+    ]
     golfers[0].reset()
     for golfer, strike in zip(golfers, strikes):
         golfer.strike(strike, SPIN)
@@ -32,9 +48,10 @@ def strike_all(golfers, number):
 
 @needs_numba
 def test_with_twenty_balls_the_compiled_engine_takes_over_between_shots_and_the_bag_is_identical(
-        start, make_golfer, tmp_path, capsys):
+    start, make_golfer, tmp_path, capsys
+):
     pytest.importorskip('rosbags')
-    sim = start('sim_node', *parameters('/crowd', balls=f"[{','.join(BALLS)}]"))
+    sim = start('sim_node', *parameters('/crowd', balls=f'[{",".join(BALLS)}]'))
     sim.wait_for(READY)
     golfers = [make_golfer('/crowd', name) for name in BALLS]
     told = golfers[0].listen(DiagnosticArray, '/diagnostics')
@@ -57,7 +74,9 @@ def test_with_twenty_balls_the_compiled_engine_takes_over_between_shots_and_the_
     assert lines[-1] == f'{shots} of {shots} identical'
 
 
-def test_with_one_ball_nothing_is_compiled_and_nothing_of_a_compiler_is_loaded(start, make_golfer, tmp_path):
+def test_with_one_ball_nothing_is_compiled_and_nothing_of_a_compiler_is_loaded(
+    start, make_golfer, tmp_path
+):
     cache = tmp_path / 'cache'
     sim = start('sim_node', *parameters('/alone'), environment={'GOLF_SIM_ROS_CACHE': str(cache)})
     sim.wait_for(READY)
@@ -72,10 +91,15 @@ def test_with_one_ball_nothing_is_compiled_and_nothing_of_a_compiler_is_loaded(s
 
 
 @needs_numba
-def test_a_compiler_that_cannot_be_had_is_one_line_and_the_play_goes_on(start, make_golfer, tmp_path):
+def test_a_compiler_that_cannot_be_had_is_one_line_and_the_play_goes_on(
+    start, make_golfer, tmp_path
+):
     (tmp_path / 'file').touch()
-    sim = start('sim_node', *parameters('/stubborn', rate=10000.0, real_time_factor=2.0),
-                environment={'GOLF_SIM_ROS_CACHE': str(tmp_path / 'file')})
+    sim = start(
+        'sim_node',
+        *parameters('/stubborn', rate=10000.0, real_time_factor=2.0),
+        environment={'GOLF_SIM_ROS_CACHE': str(tmp_path / 'file')},
+    )
     sim.wait_for(READY)
     golfer = make_golfer('/stubborn')
     golfer.play((25.0, 0.0, 15.0))
@@ -86,8 +110,11 @@ def test_a_compiler_that_cannot_be_had_is_one_line_and_the_play_goes_on(start, m
 
 
 def test_the_compiled_engine_that_is_asked_for_and_cannot_be_had_is_a_refusal(start):
-    sim = start('sim_node', *parameters('/refused', engine='compiled'),
-                environment={'NUMBA_DISABLE_JIT': '1'})
+    sim = start(
+        'sim_node',
+        *parameters('/refused', engine='compiled'),
+        environment={'NUMBA_DISABLE_JIT': '1'},
+    )
     assert sim.wait() == 1
     fatal = [line for line in sim.lines if 'FATAL' in line]
     assert len(fatal) == 1 and "engine 'compiled' cannot be had: " in fatal[0]
@@ -96,8 +123,11 @@ def test_the_compiled_engine_that_is_asked_for_and_cannot_be_had_is_a_refusal(st
 @needs_numba
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
 def test_a_signal_ends_a_sim_that_waits_for_the_compiler_with_exit_code_0(start, tmp_path, number):
-    sim = start('sim_node', *parameters('/compiling', engine='compiled'),
-                environment={'GOLF_SIM_ROS_CACHE': str(tmp_path), 'NUMBA_DISABLE_JIT': '0'})
+    sim = start(
+        'sim_node',
+        *parameters('/compiling', engine='compiled'),
+        environment={'GOLF_SIM_ROS_CACHE': str(tmp_path), 'NUMBA_DISABLE_JIT': '0'},
+    )
     sim.wait_for('waiting for the physics to be compiled')
     assert sim.stop(number) == 0
     assert 'Traceback' not in sim.output

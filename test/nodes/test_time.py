@@ -1,15 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Simulated time over DDS: faster than the clock, on /clock, and standing still."""
+
 from statistics import median
 
 from geometry_msgs.msg import Vector3Stamped
+from processes import LATCHED, parameters, READY, seconds, wait_until
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
 from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool
-
-from processes import LATCHED, parameters, READY, seconds, wait_until
 
 DRIVE, DRIVE_SPIN = (20.0, 0.5, 11.0), (0.0, -280.0, 15.0)
 
@@ -52,8 +65,10 @@ def test_a_shot_as_fast_as_can_be_is_the_same_and_has_as_many_poses(golfer, stea
 
 def test_stamps_are_simulated_time_and_it_stands_still_while_the_ball_rests(golfer):
     result = golfer.play(DRIVE)
-    wait_until(lambda: seconds(golfer.poses[-1].header.stamp) == pytest.approx(result['time'], abs=0.005),
-               'the pose at rest came')
+    wait_until(
+        lambda: seconds(golfer.poses[-1].header.stamp) == pytest.approx(result['time'], abs=0.005),
+        'the pose at rest came',
+    )
     before = seconds(golfer.poses[-1].header.stamp)
     golfer.heartbeat()
     assert seconds(golfer.poses[-1].header.stamp) == before
@@ -63,7 +78,9 @@ def test_the_clock_never_goes_back_and_is_that_of_the_stamps(golfer):
     clocks = golfer.listen(Clock, '/clock', 1000)
     golfer.play(DRIVE)
     golfer.heartbeat()
-    wait_until(lambda: seconds(clocks[-1].clock) == seconds(golfer.poses[-1].header.stamp), 'both agree')
+    wait_until(
+        lambda: seconds(clocks[-1].clock) == seconds(golfer.poses[-1].header.stamp), 'both agree'
+    )
     times = [seconds(message.clock) for message in clocks]
     assert times == sorted(times) and len(set(times)) > 5
 
@@ -78,7 +95,9 @@ def test_a_paused_sim_stands_still_however_hasty(golfer):
     wait_until(lambda: golfer.results_of(DRIVE), 'the result came')
 
 
-def test_a_wind_node_on_simulated_time_draws_a_gust_every_ten_simulated_seconds(hasty, start, client):
+def test_a_wind_node_on_simulated_time_draws_a_gust_every_ten_simulated_seconds(
+    hasty, start, client
+):
     set_factor(client, '/hasty', 25.0)
     start('wind_node', *parameters('/hasty', use_sim_time='true', seed=5))
     heard = client.listen(Vector3Stamped, '/hasty/wind', LATCHED)
@@ -127,20 +146,28 @@ def test_a_start_that_makes_no_sense_is_one_line_and_exit_code_1(start, values):
 
 
 def test_a_sim_that_publishes_its_clock_may_follow_it(start, make_golfer):
-    process = start('sim_node', *parameters(
-        '/follower', use_sim_time='true', publish_clock='true', real_time_factor=10.0))
+    process = start(
+        'sim_node',
+        *parameters('/follower', use_sim_time='true', publish_clock='true', real_time_factor=10.0),
+    )
     process.wait_for(READY)
     assert make_golfer('/follower').play((9.0, 0.0, 5.0))['status'] == 'at_rest'
 
 
-def test_a_sim_that_can_not_keep_up_leaves_out_no_tick_and_says_so_once_a_second(start, make_golfer, steady):
+def test_a_sim_that_can_not_keep_up_leaves_out_no_tick_and_says_so_once_a_second(
+    start, make_golfer, steady
+):
     process = start('sim_node', *parameters('/slow', real_time_factor=15.0, rate=10000.0))
     process.wait_for(READY)
     golfer = make_golfer('/slow')
     result = golfer.play(DRIVE, DRIVE_SPIN)
-    wait_until(lambda: process.output.count('slower than the clock') > 1, 'it told twice that it is slow')
+    wait_until(
+        lambda: process.output.count('slower than the clock') > 1, 'it told twice that it is slow'
+    )
     assert process.stop() == 0
-    times = [float(line.split('[')[2].split(']')[0]) for line in process.lines if 'slower than' in line]
+    times = [
+        float(line.split('[')[2].split(']')[0]) for line in process.lines if 'slower than' in line
+    ]
     assert all(after - before > 0.99 for before, after in zip(times, times[1:]))
     other = make_golfer('/steady')
     other.reset()
@@ -151,7 +178,9 @@ def test_a_sim_that_can_not_keep_up_leaves_out_no_tick_and_says_so_once_a_second
 
 
 def test_effects_asked_for_in_vain_are_one_line_of_the_log(start):
-    process = start('sim_node', *parameters('/vain', effects="['gravity', 'drag', 'foliage', 'ball_ball']"))
+    process = start(
+        'sim_node', *parameters('/vain', effects="['gravity', 'drag', 'foliage', 'ball_ball']")
+    )
     process.wait_for(READY)
     told = [line for line in process.lines if 'foliage (no leaves)' in line]
     assert len(told) == 1 and 'ball_ball (one ball)' in told[0]

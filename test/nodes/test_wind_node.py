@@ -1,20 +1,33 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The wind generator over DDS, on simulated time and on the wall clock."""
+
 from math import hypot
 import re
 import signal
 
-import pytest
 from geometry_msgs.msg import Vector3Stamped
+from golf_sim_ros.wind.gusts import Gusts, GustSettings
+from processes import parameters, wait_until
+import pytest
 from rcl_interfaces.msg import ParameterType
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters, SetParameters
 from rclpy.parameter import Parameter
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, qos_profile_sensor_data, QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
-
-from golf_sim_ros.wind.gusts import GustSettings, Gusts
-from processes import parameters, wait_until
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -34,6 +47,7 @@ class SimulatedTime:
             self.clock.publish(Clock(clock=now.to_msg()))
             stamps = [Time.from_msg(message.header.stamp) for message in self.heard[-1:]]
             return stamps and stamps[0].nanoseconds == now.nanoseconds
+
         wait_until(answer, f'a wind stamped {seconds} s')
         vector = self.heard[-1].vector
         return vector.x, vector.y, vector.z
@@ -46,15 +60,18 @@ class SimulatedTime:
         def noticed():
             self.clock.publish(Clock(clock=Time(nanoseconds=next(ticks) * 1000000).to_msg()))
             return self.heard
+
         wait_until(noticed, 'a wind after time started again')
 
 
 @pytest.fixture
 def simulated_time(start, client):
     """`simulated_time(namespace, seed=...)` starts a wind node on /clock."""
+
     def begin(namespace, **values):
         start('wind_node', *parameters(namespace, use_sim_time='true', **values))
         return SimulatedTime(client, namespace)
+
     return begin
 
 
@@ -92,7 +109,9 @@ def test_the_same_seed_gives_the_same_gusts_to_a_node_that_starts_later(simulate
     first, other = simulated_time('/first', seed=3), simulated_time('/other', seed=4)
     first.wind_at(5.0)
     later = simulated_time('/later', seed=3)
-    winds = [[node.wind_at(seconds) for node in (first, later, other)] for seconds in (15.0, 25.0, 35.0)]
+    winds = [
+        [node.wind_at(seconds) for node in (first, later, other)] for seconds in (15.0, 25.0, 35.0)
+    ]
     of_first, of_later, of_other = zip(*winds)
     assert of_later == of_first
     assert len({*of_first, *of_other}) == 6
@@ -106,8 +125,15 @@ def test_a_clock_that_jumps_back_meets_the_same_gusts_again(simulated_time):
 
 
 def test_every_parameter_of_the_gusts_does_what_the_process_says(simulated_time):
-    values = {'speed': 12.0, 'speed_spread': 5.0, 'direction': 1.0, 'direction_spread': 0.25,
-              'interval': 3.0, 'ramp': 2.0, 'turbulence': 0.3}
+    values = {
+        'speed': 12.0,
+        'speed_spread': 5.0,
+        'direction': 1.0,
+        'direction_spread': 0.25,
+        'interval': 3.0,
+        'ramp': 2.0,
+        'turbulence': 0.3,
+    }
     time = simulated_time('/all', seed=5, frame_id='links', **values)
     gusts = Gusts(GustSettings(**values), 5)
     for seconds in (0.5, 4.0, 5.5, 300.25):
@@ -121,8 +147,15 @@ def wind_node(start):
     return start('wind_node', *parameters('/wall'))
 
 
-@pytest.mark.parametrize('qos', [
-    10, LATCHED, qos_profile_sensor_data, QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)])
+@pytest.mark.parametrize(
+    'qos',
+    [
+        10,
+        LATCHED,
+        qos_profile_sensor_data,
+        QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT),
+    ],
+)
 def test_subscribers_of_every_quality_of_service_hear_the_wind(wind_node, client, qos):
     heard = client.listen(Vector3Stamped, '/wall/wind', qos)
     wait_until(lambda: len(heard) >= 3, 'three winds came')
@@ -134,6 +167,7 @@ def test_the_wind_is_offered_reliable_and_latched(wind_node, client):
     def offered():
         found = client.node.get_publishers_info_by_topic('/wall/wind')
         return [info for info in found if info.node_name == 'wind_generator']
+
     infos = wait_until(offered, 'the wind is found')
     assert infos[0].qos_profile.reliability == ReliabilityPolicy.RELIABLE
     assert infos[0].qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
@@ -141,15 +175,31 @@ def test_the_wind_is_offered_reliable_and_latched(wind_node, client):
 
 def test_every_parameter_is_described_and_every_number_has_a_range(wind_node, client):
     service = '/wall/wind_generator/'
-    names = client.call(ListParameters, service + 'list_parameters', ListParameters.Request()).result.names
-    own = {'speed', 'speed_spread', 'direction', 'direction_spread', 'interval', 'ramp', 'turbulence',
-           'seed', 'publish_rate', 'frame_id'}
+    names = client.call(
+        ListParameters, service + 'list_parameters', ListParameters.Request()
+    ).result.names
+    own = {
+        'speed',
+        'speed_spread',
+        'direction',
+        'direction_spread',
+        'interval',
+        'ramp',
+        'turbulence',
+        'seed',
+        'publish_rate',
+        'frame_id',
+    }
     assert own <= set(names)
     request = DescribeParameters.Request(names=sorted(own))
-    described = client.call(DescribeParameters, service + 'describe_parameters', request).descriptors
+    described = client.call(
+        DescribeParameters, service + 'describe_parameters', request
+    ).descriptors
     assert all(one.description for one in described)
     assert {one.name for one in described if one.read_only} == {'seed', 'publish_rate'}
-    without_range = {one.name for one in described if not (one.floating_point_range or one.integer_range)}
+    without_range = {
+        one.name for one in described if not (one.floating_point_range or one.integer_range)
+    }
     assert without_range == {'frame_id'}
 
 
@@ -159,12 +209,28 @@ def set_parameter(client, name, value):
     return client.call(SetParameters, '/wall/wind_generator/set_parameters', request).results[0]
 
 
-@pytest.mark.parametrize('name, value', [
-    ('speed', -1.0), ('speed', float('nan')), ('speed', float('inf')), ('speed', 'strong'), ('speed', 1e9),
-    ('speed_spread', -0.1), ('direction', 10.0), ('direction_spread', -1.0), ('interval', 0.0),
-    ('ramp', -1.0), ('turbulence', 2.0), ('seed', 5), ('publish_rate', 20.0), ('frame_id', 1.0)])
+@pytest.mark.parametrize(
+    'name, value',
+    [
+        ('speed', -1.0),
+        ('speed', float('nan')),
+        ('speed', float('inf')),
+        ('speed', 'strong'),
+        ('speed', 1e9),
+        ('speed_spread', -0.1),
+        ('direction', 10.0),
+        ('direction_spread', -1.0),
+        ('interval', 0.0),
+        ('ramp', -1.0),
+        ('turbulence', 2.0),
+        ('seed', 5),
+        ('publish_rate', 20.0),
+        ('frame_id', 1.0),
+    ],
+)
 def test_a_bad_or_read_only_value_is_refused_with_a_reason_and_nothing_changes(
-        wind_node, client, name, value):
+    wind_node, client, name, value
+):
     request = GetParameters.Request(names=[name])
     service = '/wall/wind_generator/get_parameters'
     before = client.call(GetParameters, service, request).values
@@ -183,12 +249,17 @@ def test_new_settings_and_a_new_frame_apply_while_the_node_runs(wind_node, clien
     def arrived():
         last = heard[-1] if heard else Vector3Stamped()
         return last.header.frame_id == 'links' and (last.vector.x, last.vector.y) == (20.0, 0.0)
+
     wait_until(arrived, 'a wind of 20 m/s along x in the frame links')
 
 
 def test_seed_minus_one_is_fresh_each_start_and_logged(start):
-    seeds = {re.search(r'seed (\d+)', start('wind_node', *parameters('/fresh', seed=-1)).wait_for('seed'))[1]
-             for _ in range(2)}
+    seeds = {
+        re.search(
+            r'seed (\d+)', start('wind_node', *parameters('/fresh', seed=-1)).wait_for('seed')
+        )[1]
+        for _ in range(2)
+    }
     assert len(seeds) == 2
 
 
@@ -200,9 +271,19 @@ def test_a_signal_ends_the_node_with_exit_code_zero(start, number):
     assert 'Traceback' not in process.output
 
 
-@pytest.mark.parametrize('name, value', [
-    ('speed', '-1.0'), ('interval', '0.0'), ('seed', '-2'), ('publish_rate', '0.0'), ('speed', 'strong')])
-def test_a_bad_parameter_at_the_start_ends_the_node_with_one_line_and_exit_code_one(start, name, value):
+@pytest.mark.parametrize(
+    'name, value',
+    [
+        ('speed', '-1.0'),
+        ('interval', '0.0'),
+        ('seed', '-2'),
+        ('publish_rate', '0.0'),
+        ('speed', 'strong'),
+    ],
+)
+def test_a_bad_parameter_at_the_start_ends_the_node_with_one_line_and_exit_code_one(
+    start, name, value
+):
     process = start('wind_node', *parameters('/wrong', **{name: value}))
     assert process.wait() == 1
     assert len(process.lines) == 1 and name in process.output
@@ -214,8 +295,12 @@ def test_the_shipped_parameter_file_holds_the_defaults(start, client):
     request = GetParameters.Request(names=names)
     start('wind_node', '--ros-args', '-r', '__ns:=/filed', '--params-file', 'config/wind.yaml')
     start('wind_node', *parameters('/bare'))
-    filed, bare = (client.call(GetParameters, f'{space}/{service}', request).values
-                   for space in ('/filed', '/bare'))
+    filed, bare = (
+        client.call(GetParameters, f'{space}/{service}', request).values
+        for space in ('/filed', '/bare')
+    )
     assert [one.type for one in filed] == [one.type for one in bare]
-    assert [one.double_value for one in filed] == pytest.approx([one.double_value for one in bare], abs=1e-5)
+    assert [one.double_value for one in filed] == pytest.approx(
+        [one.double_value for one in bare], abs=1e-5
+    )
     assert filed[-3:] == bare[-3:]

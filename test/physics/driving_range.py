@@ -1,14 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Courses and shots that tests of the physics share.
 
 A new combination of effects takes half a minute to compile, so nearly all tests use one of two:
 EVERYTHING, which does nothing more on hard ground than on soft, and GRAVITY.
 """
+
 from math import cos, radians, sin
 
+from golf_sim_ros.physics import Course, Material, Patch, PENNER, Plane, Restitution
 import numpy as np
-
-from golf_sim_ros.physics import Course, Material, PENNER, Patch, Plane, Restitution
 
 EVERYTHING = ('gravity', 'drag', 'magnus', 'spin_decay', 'turf')
 GRAVITY = ('gravity',)
@@ -28,7 +41,11 @@ def slope(angle, material):
 
 
 def hilly(move=(0.0, 0.0, 0.0), turn=0.0):
-    """A fairway that falls and a green beyond, in rough; turned about the tee by `turn`, then moved."""
+    """A fairway that falls and a green beyond, in rough.
+
+    Turned about the tee by `turn`, then moved.
+    """
+
     def turned(x, y, z):
         return cos(turn) * x - sin(turn) * y, sin(turn) * x + cos(turn) * y, z
 
@@ -36,10 +53,14 @@ def hilly(move=(0.0, 0.0, 0.0), turn=0.0):
         return tuple(float(a + b) for a, b in zip(turned(*place), move))
 
     normal = np.array((0.05, 0.03, 1.0)) / np.linalg.norm((0.05, 0.03, 1.0))
-    return Course((Plane(placed(0, 0, -1), material=TURF),
-                   Patch(placed(30, 0, 0), turned(*normal), turn, 80, 60, HARD),
-                   Patch(placed(120, 10, -0.5), turned(0, 0, 1), turn + 0.4, 90, 60, TURF)),
-                  tee=placed(0, 0, 0)[:2])
+    return Course(
+        (
+            Plane(placed(0, 0, -1), material=TURF),
+            Patch(placed(30, 0, 0), turned(*normal), turn, 80, 60, HARD),
+            Patch(placed(120, 10, -0.5), turned(0, 0, 1), turn + 0.4, 90, 60, TURF),
+        ),
+        tee=placed(0, 0, 0)[:2],
+    )
 
 
 def down(angle):
@@ -50,7 +71,9 @@ def down(angle):
 def launched(speed, angle, azimuth=0.0):
     """Velocity of a ball launched at `angle` above the level, `azimuth` from x towards y [rad]."""
     level_speed = speed * np.cos(angle)
-    return np.stack((level_speed * np.cos(azimuth), level_speed * np.sin(azimuth), speed * np.sin(angle)), -1)
+    return np.stack(
+        (level_speed * np.cos(azimuth), level_speed * np.sin(azimuth), speed * np.sin(angle)), -1
+    )
 
 
 DRIVE = launched(74.7, radians(10.9)), (0.0, -2686 * 2 * np.pi / 60, 0.0)
@@ -59,8 +82,11 @@ DRIVE = launched(74.7, radians(10.9)), (0.0, -2686 * 2 * np.pi / 60, 0.0)
 def random_shots(n, seed):
     """Velocities and spins of `n` shots: 5 to 90 m/s, 2 to 60 degrees high, to 1000 rad/s about any axis."""
     rng = np.random.default_rng(seed)
-    velocities = launched(rng.uniform(5, 90, n), np.radians(rng.uniform(2, 60, n)),
-                          np.radians(rng.uniform(-20, 20, n)))
+    velocities = launched(
+        rng.uniform(5, 90, n),
+        np.radians(rng.uniform(2, 60, n)),
+        np.radians(rng.uniform(-20, 20, n)),
+    )
     axes = rng.normal(size=(n, 3))
     spins = axes / np.linalg.norm(axes, axis=1)[:, None] * rng.uniform(0, 1000, n)[:, None]
     return velocities, spins
@@ -70,5 +96,10 @@ def first_touches(shots, velocities):
     """Horizontal way (n, 2) from strike to first contact of `shots` struck at `velocities`."""
     heading = np.arctan2(velocities[:, 1], velocities[:, 0])
     ahead, left = np.sqrt(shots['carry'] ** 2 - shots['carry_side'] ** 2), shots['carry_side']
-    return np.stack((ahead * np.cos(heading) - left * np.sin(heading),
-                     ahead * np.sin(heading) + left * np.cos(heading)), -1)
+    return np.stack(
+        (
+            ahead * np.cos(heading) - left * np.sin(heading),
+            ahead * np.sin(heading) + left * np.cos(heading),
+        ),
+        -1,
+    )

@@ -1,15 +1,38 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Random shots at what nothing may pass: how many do, of how many, and how deep any ball gets into it.
 
-A shot has passed where, at any tick, its ball's centre is on the other side of a sheet without having gone
-round its edge, or where it has gone straight on through what stood in its way. Speeds are 0 to 120 m/s, spins
-to 2000 rad/s, the way at most 2 m; every fourth shot grazes. Many balls that do not feel each other fly in
-one world: a tick of all takes little longer than one's.
+A shot has passed where, at any tick, its ball's centre is on the other side of a sheet without
+having gone round its edge, or where it has gone straight on through what stood in its way. Speeds
+are 0 to 120 m/s, spins to 2000 rad/s, the way at most 2 m; every fourth shot grazes. Many balls
+that do not feel each other fly in one world: a tick of all takes little longer than one's.
 """
-import numpy as np
 
 from driving_range import GRAVITY, HARD
-from golf_sim_ros.physics import Ball, Course, Cylinder, Heightmap, Material, Mesh, Patch, Plane, World
+from golf_sim_ros.physics import (
+    Ball,
+    Course,
+    Cylinder,
+    Heightmap,
+    Material,
+    Mesh,
+    Patch,
+    Plane,
+    World,
+)
+import numpy as np
 from scene import gaps_to_triangles
 
 RADIUS = Ball().radius
@@ -35,23 +58,31 @@ def shots(random, count):
     ways = random.normal(size=(count, 3))
     ways[::4, 2] *= 10.0 ** random.uniform(-9, -1, len(ways[::4]))
     ways[:, 2] = -np.abs(ways[:, 2])
-    return (ways / np.linalg.norm(ways, axis=1)[:, np.newaxis], random.uniform(0.1, FAST, count),
-            random.uniform(0, 2000, (count, 1)) * units(random, count), random.uniform(0.1, 2.0, count))
+    return (
+        ways / np.linalg.norm(ways, axis=1)[:, np.newaxis],
+        random.uniform(0.1, FAST, count),
+        random.uniform(0, 2000, (count, 1)) * units(random, count),
+        random.uniform(0.1, 2.0, count),
+    )
 
 
 def flights(course, begins, times, rate, accuracy, others=0):
-    """Fly shots, those of like `times` together; yield their numbers and where they are at every tick.
+    """Fly shots, those of like `times` together.
 
-    ``begins``: what each ball's `World.place` gets, a list of (position, velocity, spin) for each shot;
-    of several balls a shot, the first is placed first. Positions are (ticks, shots, balls, 3).
+    Yield their numbers and where they are at every tick.
+
+    ``begins``: what each ball's `World.place` gets, a list of (position, velocity, spin) for each
+    shot; of several balls a shot, the first is placed first. Positions are (ticks, shots, balls,
+    3).
     """
     balls = 1 + others
     world = World(course, AT_ONCE * balls, accuracy=accuracy)
-    names, rows = np.reshape(world.names, (AT_ONCE, balls)), world._balls  # by name takes most of the time
+    # by name takes most of the time
+    names, rows = np.reshape(world.names, (AT_ONCE, balls)), world._balls
     nowhere = world.state()
     order = np.argsort(times)
     for first in range(0, len(times), AT_ONCE):
-        numbers = order[first:first + AT_ONCE]
+        numbers = order[first : first + AT_ONCE]
         world.restore(nowhere)
         for ball in range(balls):
             for number, own in zip(numbers, names):
@@ -61,8 +92,11 @@ def flights(course, begins, times, rate, accuracy, others=0):
             world.advance(1.0 / rate)
             places.append(rows['position'].copy())
         shape = -1, AT_ONCE, balls, 3
-        yield (numbers, np.reshape(places, shape)[:, :len(numbers)],
-               np.reshape(rows['velocity'], shape[1:])[:len(numbers)])
+        yield (
+            numbers,
+            np.reshape(places, shape)[:, : len(numbers)],
+            np.reshape(rows['velocity'], shape[1:])[: len(numbers)],
+        )
 
 
 def time_of(ways, speeds):
@@ -71,7 +105,9 @@ def time_of(ways, speeds):
 
 
 def at_a_sheet(shape, height, clear, setting, seed):
-    """Shots from above at a `shape` that is a function of x and y; returns how many pass, and the depth [m].
+    """Shots from above at a `shape` that is a function of x and y.
+
+    Returns how many pass, and the depth [m].
 
     ``height`` of points (n, 2); ``clear``: signed distance of balls at (n, 3) from it.
     """
@@ -83,7 +119,9 @@ def at_a_sheet(shape, height, clear, setting, seed):
         aims = random.uniform(-1.0, 1.0, (count, 2))
         starts = np.c_[aims, height(aims) + RADIUS] - far[:, np.newaxis] * way
         free = clear(starts) > 1e-5
-        begins += [[one] for one in zip(starts[free], (speed[:, np.newaxis] * way)[free], spin[free])]
+        begins += [
+            [one] for one in zip(starts[free], (speed[:, np.newaxis] * way)[free], spin[free])
+        ]
         ways += far[free].tolist()
         speeds += speed[free].tolist()
     times = time_of(np.array(ways[:count]), np.array(speeds[:count]))
@@ -117,13 +155,23 @@ def at_the_mesh(setting, seed=1):
     """At a crumpled sheet of triangles."""
     mesh = sheet()
     corners = mesh.vertices[mesh.faces].reshape(SQUARES, SQUARES, 2, 3, 3)
-    blocks = np.stack([np.roll(corners, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)], 2)
+    blocks = np.stack(
+        [np.roll(corners, (i, j), (0, 1)) for i in (-1, 0, 1) for j in (-1, 0, 1)], 2
+    )
     blocks = blocks.reshape(SQUARES, SQUARES, 18, 3, 3)
     tops = blocks[..., 2].max((2, 3)) + RADIUS
 
     def square(places):
-        """Row and column of the square under each place; of those at the sides, the next one inside."""
-        i, j = np.floor((places[:, :2] + HALF) * SQUARES / (2 * HALF)).astype(int).clip(1, SQUARES - 2).T
+        """Row and column of the square under each place.
+
+        Of those at the sides, the next one inside.
+        """
+        i, j = (
+            np.floor((places[:, :2] + HALF) * SQUARES / (2 * HALF))
+            .astype(int)
+            .clip(1, SQUARES - 2)
+            .T
+        )
         return j, i
 
     def around(places):
@@ -132,7 +180,10 @@ def at_the_mesh(setting, seed=1):
 
     def over(triangles, places):
         """Height of the triangle in plan at each place."""
-        to, sides = places[:, np.newaxis, np.newaxis] - triangles, np.roll(triangles, -1, 2) - triangles
+        to, sides = (
+            places[:, np.newaxis, np.newaxis] - triangles,
+            np.roll(triangles, -1, 2) - triangles,
+        )
         inside = (sides[..., 0] * to[..., 1] - sides[..., 1] * to[..., 0]).min(2)
         own = triangles[np.arange(len(places)), inside.argmax(1)]
         normal = np.cross(own[:, 1] - own[:, 0], own[:, 2] - own[:, 0])
@@ -144,7 +195,11 @@ def at_the_mesh(setting, seed=1):
         for some in np.array_split(near, 1 + len(near) // 4000):
             triangles = around(places[some])
             points = np.repeat(places[some], triangles.shape[1], 0)[:, np.newaxis]
-            gaps = gaps_to_triangles(triangles.reshape(-1, 3, 3), points).reshape(len(some), -1).min(1)
+            gaps = (
+                gaps_to_triangles(triangles.reshape(-1, 3, 3), points)
+                .reshape(len(some), -1)
+                .min(1)
+            )
             above = places[some, 2] > over(triangles, places[some])
             found[some] = np.where(above, gaps - RADIUS, -RADIUS)
         return found
@@ -152,14 +207,20 @@ def at_the_mesh(setting, seed=1):
     def height(points):
         points = np.c_[points, np.zeros(len(points))]
         return over(around(points), points)
+
     return at_a_sheet(mesh, height, clear, setting, seed)
 
 
 def at_the_patch(setting, seed=2):
     """At a level patch."""
     patch = Patch((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 2 * HALF, 2 * HALF, HARD)
-    return at_a_sheet(patch, lambda points: np.zeros(len(points)), lambda places: places[:, 2] - RADIUS,
-                      setting, seed)
+    return at_a_sheet(
+        patch,
+        lambda points: np.zeros(len(points)),
+        lambda places: places[:, 2] - RADIUS,
+        setting,
+        seed,
+    )
 
 
 def spline(heights, spacing):
@@ -167,15 +228,19 @@ def spline(heights, spacing):
     n = len(heights)
     matrix, right = np.eye(n), np.zeros(n)
     for i in range(1, n - 1):
-        matrix[i, i - 1:i + 2] = 1.0, 4.0, 1.0
-        right[i] = 6.0 * (heights[i - 1] - 2.0 * heights[i] + heights[i + 1]) / spacing ** 2
+        matrix[i, i - 1 : i + 2] = 1.0, 4.0, 1.0
+        right[i] = 6.0 * (heights[i - 1] - 2.0 * heights[i] + heights[i + 1]) / spacing**2
     bends = np.linalg.solve(matrix, right)
 
     def height(x):
         i = np.floor((x + HALF) / spacing).astype(int).clip(0, n - 2)
         t = (x + HALF) / spacing - i
-        return ((1 - t) * heights[i] + t * heights[i + 1] + spacing ** 2 / 6
-                * (((1 - t) ** 3 - (1 - t)) * bends[i] + (t ** 3 - t) * bends[i + 1]))
+        return (
+            (1 - t) * heights[i]
+            + t * heights[i + 1]
+            + spacing**2 / 6 * (((1 - t) ** 3 - (1 - t)) * bends[i] + (t**3 - t) * bends[i + 1])
+        )
+
     return height
 
 
@@ -184,23 +249,28 @@ def at_the_step(setting, seed=3):
     cells, spacing = 16, 0.5
     column = np.where(np.arange(cells + 1) > cells // 2, 1.0, 0.0)
     rise = spline(column, spacing)
-    fine = rise(np.linspace(-HALF, HALF, 1601))  # every 5 mm; the highest within 30 mm says what is clear
+    # every 5 mm; the highest within 30 mm says what is clear
+    fine = rise(np.linspace(-HALF, HALF, 1601))
     tops = np.max([np.roll(fine, k) for k in range(-6, 7)], 0) + 1.2 * RADIUS
-    steps = np.linspace(-1.2 * RADIUS, 1.2 * RADIUS, 101)  # along x, to where the curve is looked at
+    # along x, to where the curve is looked at
+    steps = np.linspace(-1.2 * RADIUS, 1.2 * RADIUS, 101)
 
     def clear(places):
         found = places[:, 2] - tops[np.rint((places[:, 0] + HALF) * 200).astype(int).clip(0, 1600)]
         near = np.flatnonzero(found < 0)
         for some in np.array_split(near, 1 + len(near) // 2000):
             x, z = places[some, 0], places[some, 2]
-            squares = steps ** 2 + (rise(x[:, np.newaxis] + steps) - z[:, np.newaxis]) ** 2
+            squares = steps**2 + (rise(x[:, np.newaxis] + steps) - z[:, np.newaxis]) ** 2
             best = squares.argmin(1)
             inner = np.flatnonzero((best > 0) & (best < len(steps) - 1))  # else it is far off
             before, least, after = (squares[inner, best[inner] + k] for k in (-1, 0, 1))
             squares = squares.min(1)
             squares[inner] = least - (after - before) ** 2 / (8 * (before - 2 * least + after))
-            found[some] = np.where(z > rise(x), np.sqrt(np.maximum(squares, 0.0)) - RADIUS, -RADIUS)
+            found[some] = np.where(
+                z > rise(x), np.sqrt(np.maximum(squares, 0.0)) - RADIUS, -RADIUS
+            )
         return found
+
     map_ = Heightmap(np.tile(column, (cells + 1, 1)), (-HALF, -HALF), spacing, HARD)
     return at_a_sheet(map_, lambda points: rise(points[:, 0]), clear, setting, seed)
 
@@ -209,18 +279,26 @@ def at_the_stick(setting, seed=4):
     """At an upright cylinder of 10 mm: nothing overlaps it, nothing goes straight on."""
     count, accuracy, rate = setting
     random = np.random.default_rng(seed)
-    course = Course((Plane(material=HARD),), obstacles=(Cylinder((2.0, 0.0, 0.0), STICK, 50.0, WOOD),),
-                    effects=GRAVITY)
+    course = Course(
+        (Plane(material=HARD),),
+        obstacles=(Cylinder((2.0, 0.0, 0.0), STICK, 50.0, WOOD),),
+        effects=GRAVITY,
+    )
     reach = STICK + RADIUS
     aside = random.uniform(-1, 1, count) * reach
     aside[::4] = reach * (1 - 10.0 ** random.uniform(-12, -2, len(aside[::4])))
     _, speeds, spins, ways = shots(random, count)
-    begins = [[((2.0 - way, y, 30.0), (speed, 0.0, 0.0), spin)]
-              for way, y, speed, spin in zip(ways, aside, speeds, spins)]
+    begins = [
+        [((2.0 - way, y, 30.0), (speed, 0.0, 0.0), spin)]
+        for way, y, speed, spin in zip(ways, aside, speeds, spins)
+    ]
     passed, deepest = 0, 0.0
-    for numbers, places, velocities in flights(course, begins, time_of(ways, speeds), rate, accuracy):
+    for numbers, places, velocities in flights(
+        course, begins, time_of(ways, speeds), rate, accuracy
+    ):
         away = np.hypot(places[..., 0, 0] - 2.0, places[..., 0, 1]).min(0)
-        straight = np.abs(velocities[:, 0, 1]) < 1e-8 * speeds[numbers]  # the barest touch turns it by 1e-6
+        # the barest touch turns it by 1e-6
+        straight = np.abs(velocities[:, 0, 1]) < 1e-8 * speeds[numbers]
         passed += ((away < reach - THROUGH) | straight & (places[-1, :, 0, 0] > 2.0)).sum()
         deepest = max(deepest, reach - away.min())
     return int(passed), deepest
@@ -240,8 +318,12 @@ def at_a_ball(setting, seed=5):
     sites = np.zeros((count, 3))
     sites[np.argsort(times), 0] = SITE * (np.arange(count) % AT_ONCE)
     sites[:, 2] = 30.0
-    begins = [[(site, (0.0, 0.0, 0.0)), (site + way, velocity, spin)] for site, way, velocity, spin in
-              zip(sites, across - fars[:, np.newaxis] * ways, speeds[:, np.newaxis] * ways, spins)]
+    begins = [
+        [(site, (0.0, 0.0, 0.0)), (site + way, velocity, spin)]
+        for site, way, velocity, spin in zip(
+            sites, across - fars[:, np.newaxis] * ways, speeds[:, np.newaxis] * ways, spins
+        )
+    ]
     passed, deepest = 0, 0.0
     for numbers, places, velocities in flights(course, begins, times, rate, accuracy, others=1):
         apart = places[:, :, 1] - places[:, :, 0]
@@ -254,6 +336,10 @@ def at_a_ball(setting, seed=5):
     return int(passed), deepest
 
 
-TARGETS = {'a single-sheet mesh': at_the_mesh, 'a patch': at_the_patch,
-           'a height map that rises 1 m over one cell': at_the_step,
-           'a cylinder of 10 mm radius': at_the_stick, 'another ball': at_a_ball}
+TARGETS = {
+    'a single-sheet mesh': at_the_mesh,
+    'a patch': at_the_patch,
+    'a height map that rises 1 m over one cell': at_the_step,
+    'a cylinder of 10 mm radius': at_the_stick,
+    'another ball': at_a_ball,
+}

@@ -1,12 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What a ball's place and motion on planes, patches and meshes mean, worked out apart from the physics."""
+
 from functools import lru_cache
 from math import cos, inf, pi, sin
 from typing import NamedTuple
 
-import numpy as np
-
 from golf_sim_ros.physics import Mesh, Plane
+import numpy as np
 
 GRAVITY = 9.80665
 
@@ -14,12 +27,15 @@ GRAVITY = 9.80665
 def energy(course, ball):
     """Energy over mass [J/kg] of a ball, with its height counted from z = 0."""
     v, w = np.array(ball.velocity), np.array(ball.spin)
-    turning = course.ball.inertia * course.ball.radius ** 2 * (w @ w)
+    turning = course.ball.inertia * course.ball.radius**2 * (w @ w)
     return 0.5 * (v @ v + turning) + GRAVITY * ball.position[2]
 
 
 class Faces(NamedTuple):
-    """Rectangles: centres, normals, unit vectors along and across with half sizes; a row a shape."""
+    """Rectangles: centres, normals, unit vectors along and across with half sizes.
+
+    A row a shape.
+    """
 
     centers: np.ndarray
     normals: np.ndarray
@@ -58,20 +74,32 @@ def faces(ground):
     """`Faces` of planes and patches."""
     solid = np.array([isinstance(shape, Plane) for shape in ground])
     return Faces(
-        np.array([shape.point if plane else shape.center for shape, plane in zip(ground, solid)], float),
+        np.array(
+            [shape.point if plane else shape.center for shape, plane in zip(ground, solid)], float
+        ),
         np.array([np.array(shape.normal) / np.linalg.norm(shape.normal) for shape in ground]),
         np.array([sides_of(shape) for shape in ground]),
-        np.array([(inf, inf) if plane else (0.5 * shape.length, 0.5 * shape.width)
-                  for shape, plane in zip(ground, solid)]),
-        solid, tuple(shape.cut for shape in ground),
-        np.array([getattr(shape, 'one_sided', False) for shape in ground]))
+        np.array(
+            [
+                (inf, inf) if plane else (0.5 * shape.length, 0.5 * shape.width)
+                for shape, plane in zip(ground, solid)
+            ]
+        ),
+        solid,
+        tuple(shape.cut for shape in ground),
+        np.array([getattr(shape, 'one_sided', False) for shape in ground]),
+    )
 
 
 @lru_cache
 def rims(ground):
     """Starts and ends of the edges of all cuts, two (n, 3) arrays."""
-    lines = [(lifted(shape, a), lifted(shape, b)) for shape in ground for cut in shape.cut
-             for a, b in zip(cut, (*cut[1:], cut[0]))]
+    lines = [
+        (lifted(shape, a), lifted(shape, b))
+        for shape in ground
+        for cut in shape.cut
+        for a, b in zip(cut, (*cut[1:], cut[0]))
+    ]
     return np.array(lines, float).reshape(-1, 2, 3).transpose(1, 0, 2)
 
 
@@ -97,14 +125,19 @@ def gaps(course, point):
     Under a plane they are negative. Meshes and rims come after the shapes, one-sided shapes last.
     """
     ground = tuple(shape for shape in course.ground if not isinstance(shape, Mesh))
-    meshes = [gaps_to_triangles(np.asarray(mesh.vertices)[mesh.faces], np.asarray(point))
-              for mesh in course.ground if isinstance(mesh, Mesh)]
+    meshes = [
+        gaps_to_triangles(np.asarray(mesh.vertices)[mesh.faces], np.asarray(point))
+        for mesh in course.ground
+        if isinstance(mesh, Mesh)
+    ]
     all_faces = faces(ground)
     d = np.asarray(point, float) - all_faces.centers
     on_sides = np.einsum('ijk,ik->ij', all_faces.sides, d)
     heights = np.einsum('ij,ij->i', all_faces.normals, d)
     over = on_sides - np.clip(on_sides, -all_faces.halves, all_faces.halves)
-    offsets = heights[:, np.newaxis] * all_faces.normals + np.einsum('ij,ijk->ik', over, all_faces.sides)
+    offsets = heights[:, np.newaxis] * all_faces.normals + np.einsum(
+        'ij,ijk->ik', over, all_faces.sides
+    )
     away = np.where(all_faces.solid, heights, np.linalg.norm(offsets, axis=1))
     feet = np.asarray(point) - offsets
     for i in np.flatnonzero(away < 2 * course.ball.radius):
@@ -114,14 +147,19 @@ def gaps(course, point):
     way = ends - starts
     t = np.clip(((point - starts) * way).sum(1) / (way * way).sum(1), 0, 1)
     to_rims = np.linalg.norm(point - starts - t[:, np.newaxis] * way, axis=1)
-    both = np.concatenate([away[~all_faces.one_sided], *meshes, to_rims, away[all_faces.one_sided]])
+    both = np.concatenate(
+        [away[~all_faces.one_sided], *meshes, to_rims, away[all_faces.one_sided]]
+    )
     return both - course.ball.radius, all_faces.one_sided.sum()
 
 
 def depth(course, point):
-    """How deep [m] a ball at `point` is in the ground; it may pass a one-sided sheet from behind."""
+    """How deep [m] a ball at `point` is in the ground.
+
+    It may pass a one-sided sheet from behind.
+    """
     found, one_sided = gaps(course, point)
-    return -min(0.0, *found[:len(found) - one_sided])
+    return -min(0.0, *found[: len(found) - one_sided])
 
 
 def touches(course, point, within=1e-6):

@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Drag and lift against published measurements: tour averages, a driver chart; and as laws."""
+
 import csv
 from math import pi
 from pathlib import Path
 
-from driving_range import TURF, launched, level
-from golf_sim_ros.physics import Air, LogProfile, PowerProfile, UniformProfile, simulate_many
-from golf_sim_ros.physics.effects.drag import DragLaw, drag_coefficient
-from golf_sim_ros.physics.effects.magnus import LiftLaw, lift_per_ratio
+from driving_range import launched, level, TURF
+from golf_sim_ros.physics import Air, LogProfile, PowerProfile, simulate_many, UniformProfile
+from golf_sim_ros.physics.effects.drag import drag_coefficient, DragLaw
+from golf_sim_ros.physics.effects.magnus import lift_per_ratio, LiftLaw
 from golf_sim_ros.physics.effects.wind import blowing, share
 import numpy as np
 import pytest
@@ -24,6 +38,7 @@ def table(name):
 
     def column(key):
         return np.array([float(row.get(key) or 'nan') for row in rows])
+
     return column
 
 
@@ -74,7 +89,9 @@ def test_headwind_costs_more_than_tailwind_gives():
 
 def test_thin_air_and_warm_air_carry_farther():
     still = carry()
-    high = carry(air=Air(288.15 - 0.0065 * 1600, 101325 * (1 - 0.0065 * 1600 / 288.15) ** 5.2558797, 0.0))
+    high = carry(
+        air=Air(288.15 - 0.0065 * 1600, 101325 * (1 - 0.0065 * 1600 / 288.15) ** 5.2558797, 0.0)
+    )
     assert 1.04 <= high / carry(air=Air(288.15, 101325.0, 0.0)) <= 1.09
     assert 1.005 <= carry(air=Air(temperature=308.15)) / still <= 1.02
 
@@ -92,8 +109,12 @@ RATIO, REYNOLDS = np.meshgrid(np.geomspace(1e-6, 3.0, 120), np.geomspace(1e3, 4e
 def coefficients(ratio, reynolds):
     """Drag and lift coefficients."""
     cd, cl = drag_coefficient, lift_per_ratio
-    return np.array([(cd(DragLaw(), s * s, re * re), s * cl(LiftLaw(), s * s, re * re))
-                     for s, re in zip(ratio.ravel(), reynolds.ravel())]).T
+    return np.array(
+        [
+            (cd(DragLaw(), s * s, re * re), s * cl(LiftLaw(), s * s, re * re))
+            for s, re in zip(ratio.ravel(), reynolds.ravel())
+        ]
+    ).T
 
 
 def test_the_laws_are_positive_and_bounded():
@@ -104,8 +125,9 @@ def test_the_laws_are_positive_and_bounded():
 
 def test_the_laws_have_no_step_and_no_kink():
     for size in (1e-3, 1e-4):
-        ahead, here, behind = (coefficients(RATIO + 0.01 * k * size, REYNOLDS * (1 + k * size))
-                               for k in (1, 0, -1))
+        ahead, here, behind = (
+            coefficients(RATIO + 0.01 * k * size, REYNOLDS * (1 + k * size)) for k in (1, 0, -1)
+        )
         # Second differences of a smooth function go with the step's square.
         assert np.abs(ahead - 2 * here + behind).max() < 60 * size * size
 
@@ -120,7 +142,9 @@ def test_neighbouring_shots_carry_nearly_the_same():
     assert np.abs(one - other).max() < 0.1 * YARD
 
 
-@pytest.mark.parametrize('profile', (LogProfile(), LogProfile(0.3), PowerProfile(), UniformProfile()))
+@pytest.mark.parametrize(
+    'profile', (LogProfile(), LogProfile(0.3), PowerProfile(), UniformProfile())
+)
 def test_wind_grows_with_height_without_a_kink(profile):
     height = np.geomspace(0.02, 100.0, 400)
     wind = blowing(profile, (1.0, 0.0, 0.0))

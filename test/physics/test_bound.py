@@ -1,15 +1,37 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The bound on a path's segments: the same end at every rate, in a call of any length, and in many shots.
 
 The bound itself is half a minute of plain Python, so that these play with less.
 """
-import numpy as np
-import pytest
 
-from golf_sim_ros.physics import (Course, Material, Patch, Plane, Restitution, Shot, World, simulate,
-                                  simulate_many)
+from golf_sim_ros.physics import (
+    Course,
+    Material,
+    Patch,
+    Plane,
+    Restitution,
+    Shot,
+    simulate,
+    simulate_many,
+    World,
+)
 from golf_sim_ros.physics.trajectory import shot_record as shot_
+import numpy as np
 from other_process import run
+import pytest
 
 SMOOTH = Material('smooth', Restitution(0.5), 0.0, 0.0, 0.0, 0.0)
 EASY, FEW = 1000.0, 2000
@@ -19,9 +41,11 @@ ALONG, SPIN = (0.0, 2.0, 0.0), (0.0, 0.0, 0.0)
 
 def groove():
     """A course whose tee is in a groove along y: what two surfaces hold takes 5000 segments a second."""
-    half = 0.5 ** 0.5
-    sides = [Patch((side, 0.0, 1.0), (-side * half, 0.0, half), 0.0, 2.0 / half, 400.0, SMOOTH)
-             for side in (1.0, -1.0)]
+    half = 0.5**0.5
+    sides = [
+        Patch((side, 0.0, 1.0), (-side * half, 0.0, half), 0.0, 2.0 / half, 400.0, SMOOTH)
+        for side in (1.0, -1.0)
+    ]
     return Course((Plane((0.0, 0.0, -5.0), material=SMOOTH), *sides), effects=('gravity',))
 
 
@@ -50,7 +74,9 @@ def told():
     return run(ends)
 
 
-def test_a_shot_that_takes_too_much_work_fails_at_the_same_instant_at_every_rate_and_in_one_call(told):
+def test_a_shot_that_takes_too_much_work_fails_at_the_same_instant_at_every_rate_and_in_one_call(
+    told,
+):
     results = [one for one in told[0] if len(one) > 3]
     assert len(results) == len(RATES) + 2
     assert all(result[2] == 'failed' for result in results)

@@ -1,18 +1,31 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Where compiled code is read and written: never where somebody else can have put it."""
+
+from contextlib import contextmanager
 import os
+from pathlib import Path
 import resource
 import shutil
 import stat
 import subprocess
 import sys
 import tempfile
-from contextlib import contextmanager
-from pathlib import Path
-
-import pytest
 
 from golf_sim_ros.physics.jit import cache
+import pytest
 
 SOMEBODY, ANOTHER = 65534, 54321
 is_root = os.geteuid() == 0
@@ -22,7 +35,10 @@ VARIABLES = ('GOLF_SIM_ROS_CACHE', 'NUMBA_CACHE_DIR', 'XDG_CACHE_HOME')
 
 @pytest.fixture
 def place(monkeypatch):
-    """A folder that all can enter, with a home and a place for temporary files; the environment says so."""
+    """A folder that all can enter, with a home and a place for temporary files.
+
+    The environment says so.
+    """
     top = Path(tempfile.mkdtemp(prefix='cache_of_')).resolve()
     top.chmod(0o755)
     made(top / 'home', 0o755)
@@ -85,10 +101,16 @@ def mode_of(path):
 
 # Where it is
 
+
 def test_the_cache_is_in_the_home_and_only_its_user_can_enter_it(place):
     found = cache.folder()
     assert found == (keyed(place / 'home/.cache/golf_sim_ros'), True, '')
-    assert mode_of(found.path) == mode_of(found.path.parent) == mode_of(place / 'home/.cache') == 0o700
+    assert (
+        mode_of(found.path)
+        == mode_of(found.path.parent)
+        == mode_of(place / 'home/.cache')
+        == 0o700
+    )
 
 
 def test_asking_twice_makes_nothing_more(place):
@@ -154,6 +176,7 @@ def test_a_relative_path_where_the_working_folder_is_gone_is_told(place, monkeyp
 
 
 # The home
+
 
 def test_a_home_in_the_variable_is_filled_in(place, monkeypatch):
     monkeypatch.setenv('GOLF_SIM_ROS_CACHE', '~/code')
@@ -226,6 +249,7 @@ def test_a_sticky_home_is_as_safe_as_the_folder_for_temporary_files(place):
 
 # Who can have written there
 
+
 @pytest.mark.parametrize('mode', [0o720, 0o702, 0o777, 0o1777])
 def test_a_folder_that_others_can_write_is_refused(place, monkeypatch, mode):
     monkeypatch.setenv('GOLF_SIM_ROS_CACHE', str(place / 'code'))
@@ -291,6 +315,7 @@ def test_what_another_user_put_into_the_temporary_folder_is_not_taken(place, mon
 
 # Reading without writing
 
+
 @as_root
 def test_a_cache_of_root_is_read_in_place_by_a_user_who_cannot_write_it(place, monkeypatch):
     monkeypatch.setenv('GOLF_SIM_ROS_CACHE', str(place / 'image'))
@@ -334,7 +359,9 @@ def test_nothing_writable_and_nothing_to_read_is_none_in_one_line(place, monkeyp
     made(place / 'tmp', 0o755)
     before = everything(place)
     with running_as(SOMEBODY):
-        assert is_refused(cache.folder(), 'no folder for compiled code', 'home', 'tmp', 'Permission denied')
+        assert is_refused(
+            cache.folder(), 'no folder for compiled code', 'home', 'tmp', 'Permission denied'
+        )
     assert everything(place) == before
 
 
@@ -348,6 +375,7 @@ def test_a_read_only_file_system_is_read(place, monkeypatch):
 
 
 # What goes wrong
+
 
 def test_a_full_disk_is_read_and_not_written(place, monkeypatch):
     kept(cache.folder().path)
@@ -384,15 +412,29 @@ def test_a_disk_that_is_full_is_told(place, monkeypatch):
 
 def in_a_mount(source, where):
     """What a process is told in whose eyes `source`, arguments of mount, is mounted there."""
-    said = subprocess.run(['unshare', '--mount', 'sh', '-c', f'mount {source} {where} && exec "$@"', 'sh',
-                           sys.executable, '-c', TELL, cache.__file__], text=True, capture_output=True)
+    said = subprocess.run(
+        [
+            'unshare',
+            '--mount',
+            'sh',
+            '-c',
+            f'mount {source} {where} && exec "$@"',
+            'sh',
+            sys.executable,
+            '-c',
+            TELL,
+            cache.__file__,
+        ],
+        text=True,
+        capture_output=True,
+    )
     if 'mount:' in said.stderr or 'unshare:' in said.stderr:
         pytest.skip(f'nothing can be mounted here: {said.stderr.strip()}')
     assert not said.returncode, said.stderr
     return said.stdout
 
 
-TELL = '''
+TELL = """
 import importlib.util, sys
 spec = importlib.util.spec_from_file_location('cache', sys.argv[1])
 cache = importlib.util.module_from_spec(spec)
@@ -401,7 +443,7 @@ cache.source_key = lambda: %r
 found = cache.folder()
 print('kept' if found.path else 'none', 'writable' if found.writable else 'unwritable',
       found.path, found.reason)
-''' % cache.source_key()
+""" % cache.source_key()
 
 
 @pytest.mark.parametrize('file', ['code', 'code/key'])
@@ -421,8 +463,12 @@ def test_a_file_where_the_users_cache_should_be_costs_only_that_place(place):
 
 
 def test_many_processes_may_make_it_at_once(place):
-    told = [subprocess.Popen([sys.executable, '-c', TELL, cache.__file__], stdout=subprocess.PIPE, text=True)
-            for _ in range(8)]
+    told = [
+        subprocess.Popen(
+            [sys.executable, '-c', TELL, cache.__file__], stdout=subprocess.PIPE, text=True
+        )
+        for _ in range(8)
+    ]
     said = {process.communicate()[0] for process in told}
     assert said == {f'kept writable {keyed(place / "home/.cache/golf_sim_ros")} \n'}
 
@@ -440,11 +486,14 @@ def test_a_folder_that_another_process_makes_meanwhile_is_taken(place, monkeypat
 
 def test_a_file_that_is_renamed_meanwhile_does_no_harm(place, monkeypatch):
     kept(cache.folder().path)
-    monkeypatch.setattr(os, 'walk', lambda top, onerror: [(str(top), [], ['tmp.gone', 'flight.nbi'])])
+    monkeypatch.setattr(
+        os, 'walk', lambda top, onerror: [(str(top), [], ['tmp.gone', 'flight.nbi'])]
+    )
     assert cache.folder().writable
 
 
 # Links
+
 
 def test_a_link_of_ones_own_is_followed(place, monkeypatch):
     made(place / 'disk', 0o700)
@@ -485,6 +534,7 @@ def test_a_link_to_itself_or_to_nothing_is_told(place, monkeypatch, target):
 
 # Namespaces of users
 
+
 @as_root
 def test_where_root_has_no_number_what_belongs_to_it_is_trusted(place):
     """As in a container that an ordinary user started: the machine's own files belong to nobody."""
@@ -496,14 +546,24 @@ def test_where_root_has_no_number_what_belongs_to_it_is_trusted(place):
     shutil.copy(cache.__file__, place / 'cache.py')
     (place / 'cache.py').chmod(0o644)
     inside = [python, '-c', TELL, str(place / 'cache.py')]
-    said = subprocess.run(['unshare', '--user', '--map-root-user', *inside], user=ANOTHER, group=ANOTHER,
-                          extra_groups=[], text=True, capture_output=True, cwd='/')
+    said = subprocess.run(
+        ['unshare', '--user', '--map-root-user', *inside],
+        user=ANOTHER,
+        group=ANOTHER,
+        extra_groups=[],
+        text=True,
+        capture_output=True,
+        cwd='/',
+    )
     if 'unshare:' in said.stderr:
         pytest.skip(f'no namespaces here: {said.stderr.strip()}')
-    assert said.stdout == f'kept writable {keyed(place / "home/.cache/golf_sim_ros")} \n', said.stderr
+    assert said.stdout == f'kept writable {keyed(place / "home/.cache/golf_sim_ros")} \n', (
+        said.stderr
+    )
 
 
 # The key
+
 
 def test_the_key_follows_every_source_of_the_physics_and_its_name(place, monkeypatch):
     physics = made(place / 'physics/jit').parent
@@ -527,7 +587,9 @@ def test_sources_that_change_while_a_process_runs_do_not_change_its_key(monkeypa
 
 def test_finding_the_cache_imports_neither_numba_nor_numpy():
     code = f'{TELL}assert not {{"numba", "numpy", "llvmlite"}} & set(sys.modules)'
-    subprocess.run([sys.executable, '-S', '-c', code, cache.__file__], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [sys.executable, '-S', '-c', code, cache.__file__], check=True, stdout=subprocess.DEVNULL
+    )
 
 
 def is_refused(found, *reasons):

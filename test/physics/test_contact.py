@@ -1,12 +1,38 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Bouncing, sliding, rolling, resting: closed forms and laws of the contact with hard ground."""
+
 import csv
 from math import atan, cos, radians, sin, sqrt, tan
 from pathlib import Path
 
-from driving_range import EVERYTHING, GRAVITY, HARD, TURF, down, level, random_shots, slope
-from golf_sim_ros.physics import (ACCURACY, Collision, Material, Phase, Preset, Restitution, Result, Shot,
-                                  World, rolling_resistance_of_stimp, simulate, simulate_many)
+from driving_range import down, EVERYTHING, GRAVITY, HARD, level, random_shots, slope, TURF
+from golf_sim_ros.physics import (
+    ACCURACY,
+    Collision,
+    Material,
+    Phase,
+    Preset,
+    Restitution,
+    Result,
+    rolling_resistance_of_stimp,
+    Shot,
+    simulate,
+    simulate_many,
+    World,
+)
 from golf_sim_ros.physics.jit import entry
 from golf_sim_ros.physics.mechanics import coulomb_deceleration
 from golf_sim_ros.physics.scene.kernel_model import Limits
@@ -42,6 +68,7 @@ def end_of(world):
 
 # Bouncing
 
+
 @presets
 def test_a_dropped_ball_rises_to_e2_of_its_height_each_time(accuracy):
     world = World(level(SMOOTH), effects=GRAVITY, accuracy=accuracy)
@@ -63,8 +90,13 @@ def test_a_dropped_ball_rises_to_e2_of_its_height_each_time(accuracy):
 @pytest.mark.parametrize('e', [0.1, 0.5, 0.9])
 def test_all_bounces_take_2v_over_g_times_1_minus_e(accuracy, e):
     course = level(Material('e', Restitution(e)))
-    up = simulate_many(course, [[0, 0, 0.02], [0, 0, 3], [0, 0, 15]], np.zeros((3, 3)), effects=GRAVITY,
-                       accuracy=accuracy)
+    up = simulate_many(
+        course,
+        [[0, 0, 0.02], [0, 0, 3], [0, 0, 15]],
+        np.zeros((3, 3)),
+        effects=GRAVITY,
+        accuracy=accuracy,
+    )
     exact = [oracles.time_of_all_bounces(v, e) for v in (0.02, 3, 15)]
     np.testing.assert_allclose(up['duration'], exact, atol=EXACT)
 
@@ -80,7 +112,9 @@ def test_an_ideal_ball_bounces_for_a_minute_and_keeps_its_energy():
     assert after == pytest.approx(before, rel=1e-10)
 
 
-bounces = pytest.mark.parametrize('v, spin', [(5, 0), (5, -8), (-3, 6), (0, -10), (12, 12), (2, 30)])
+bounces = pytest.mark.parametrize(
+    'v, spin', [(5, 0), (5, -8), (-3, 6), (0, -10), (12, 12), (2, 30)]
+)
 
 
 @bounces
@@ -144,10 +178,13 @@ def test_rigid_bounces_agree_with_the_table(row):
     angle = radians(number['angle_below_horizontal_deg'])
     material = HARD._replace(restitution=Restitution(0.4))
     world = World(level(material), effects=GRAVITY)
-    world.place('ball', (0, 0, RADIUS + 1e-9),
-                (number['v_in_mps'] * cos(angle), 0, -number['v_in_mps'] * sin(angle)),
-                (0, -number['backspin_in_rad_s'], 0))
-    hit, = world.advance(1e-6)
+    world.place(
+        'ball',
+        (0, 0, RADIUS + 1e-9),
+        (number['v_in_mps'] * cos(angle), 0, -number['v_in_mps'] * sin(angle)),
+        (0, -number['backspin_in_rad_s'], 0),
+    )
+    (hit,) = world.advance(1e-6)
     assert hit.velocity_after[0] == pytest.approx(number['vx_out'], abs=1e-3)
     assert hit.velocity_after[2] == pytest.approx(number['vy_out'], abs=1e-3)
     assert -hit.spin_after[1] == pytest.approx(number['backspin_out_rad_s'], abs=1e-3 / RADIUS)
@@ -160,9 +197,11 @@ def test_angular_momentum_about_the_contact_is_kept_in_every_bounce(tilt):
         play = simulate(slope(-tilt, HARD), Shot(velocity, spin), effects=EVERYTHING, rate=10.0)
         seen += len(play.collisions)
         for hit in play.collisions:
-            np.testing.assert_allclose(angular_momentum(hit.spin_after, hit.velocity_after, hit.normal),
-                                       angular_momentum(hit.spin_before, hit.velocity_before, hit.normal),
-                                       atol=1e-9 * (1 + np.linalg.norm(hit.velocity_before)))
+            np.testing.assert_allclose(
+                angular_momentum(hit.spin_after, hit.velocity_after, hit.normal),
+                angular_momentum(hit.spin_before, hit.velocity_before, hit.normal),
+                atol=1e-9 * (1 + np.linalg.norm(hit.velocity_before)),
+            )
     assert seen > 100
 
 
@@ -172,8 +211,13 @@ def angular_momentum(spin, velocity, normal):
 
 
 def test_no_bounce_pulls_or_rubs_harder_than_coulomb_or_gains_energy():
-    hits = [hit for velocity, spin in zip(*random_shots(50, seed=6))
-            for hit in simulate(level(HARD), Shot(velocity, spin), effects=EVERYTHING, rate=10.0).collisions]
+    hits = [
+        hit
+        for velocity, spin in zip(*random_shots(50, seed=6))
+        for hit in simulate(
+            level(HARD), Shot(velocity, spin), effects=EVERYTHING, rate=10.0
+        ).collisions
+    ]
     assert len(hits) > 200
     for hit in hits:
         press = np.dot(hit.impulse, hit.normal)
@@ -181,7 +225,9 @@ def test_no_bounce_pulls_or_rubs_harder_than_coulomb_or_gains_energy():
         change = np.subtract(hit.velocity_after, hit.velocity_before) * oracles.MASS
         assert press > 0 and rub <= 0.4 * press * (1 + 1e-12)
         np.testing.assert_allclose(change, hit.impulse, atol=1e-12)
-        assert energy(hit.velocity_after, hit.spin_after) <= energy(hit.velocity_before, hit.spin_before)
+        assert energy(hit.velocity_after, hit.spin_after) <= energy(
+            hit.velocity_before, hit.spin_before
+        )
 
 
 def energy(velocity, spin):
@@ -213,7 +259,9 @@ def test_a_sliding_ball_rolls_at_5_7_of_its_speed(v, spin, accuracy):
 
 
 def test_the_slide_of_a_plain_strike_is_12_v2_over_49_mu_g():
-    assert oracles.slide_to_roll(2, 0, 0.3) == pytest.approx((10 / 7, 4 / (7 * 0.3 * G), 48 / (49 * 0.3 * G)))
+    assert oracles.slide_to_roll(2, 0, 0.3) == pytest.approx(
+        (10 / 7, 4 / (7 * 0.3 * G), 48 / (49 * 0.3 * G))
+    )
 
 
 @presets
@@ -226,7 +274,9 @@ def test_a_ball_rolls_down_ten_degrees_at_5_7_g_sin(accuracy):
         ball = world['ball']
         assert ball.phase == Phase.ROLL
         way = oracles.rolling_down(radians(10), time)
-        np.testing.assert_allclose(np.array(ball.position) - start, way * down(radians(10)), atol=EXACT)
+        np.testing.assert_allclose(
+            np.array(ball.position) - start, way * down(radians(10)), atol=EXACT
+        )
         np.testing.assert_allclose(ball.velocity, 2 * way / time * down(radians(10)), atol=EXACT)
         assert RADIUS * ball.spin[1] == pytest.approx(2 * way / time, abs=EXACT)
 
@@ -293,14 +343,23 @@ def test_a_slide_follows_its_differential_equation(tilt, accuracy):
     basis = np.array((down(tilt), (0, 1, 0)))
     world.place('ball', (0, 0), tuple(velocity @ basis), tuple(spin @ basis))
     times = np.linspace(0, 0.28, 15)
-    exact = solve_ivp(rates, (0, 0.28), (0, 0, *velocity, *spin), method='DOP853', rtol=1e-12, atol=1e-12,
-                      t_eval=times).y.T
+    exact = solve_ivp(
+        rates,
+        (0, 0.28),
+        (0, 0, *velocity, *spin),
+        method='DOP853',
+        rtol=1e-12,
+        atol=1e-12,
+        t_eval=times,
+    ).y.T
     for time, row in zip(times[1:], exact[1:]):
         world.advance(time - world.time)
         ball = world['ball']
         assert ball.phase == Phase.SLIDE
         limit = max(ACCURACY[accuracy].limits.path, EXACT)
-        np.testing.assert_allclose(basis @ (np.array(ball.position) - start), row[:2], atol=2 * limit)
+        np.testing.assert_allclose(
+            basis @ (np.array(ball.position) - start), row[:2], atol=2 * limit
+        )
         np.testing.assert_allclose(basis @ ball.velocity, row[2:4], atol=100 * limit)
 
 
@@ -315,14 +374,23 @@ def test_a_roll_follows_its_differential_equation(tilt, resistance, accuracy):
     spin = np.cross(np.cross(*basis), velocity @ basis) / RADIUS
     world.place('ball', (0, 0), tuple(velocity @ basis), tuple(spin))
     times = np.linspace(0, 1.2, 13)
-    exact = solve_ivp(oracles.rolling_ball_rates(resistance, tilt), (0, 1.2), (0, 0, *velocity),
-                      method='DOP853', rtol=1e-12, atol=1e-12, t_eval=times).y.T
+    exact = solve_ivp(
+        oracles.rolling_ball_rates(resistance, tilt),
+        (0, 1.2),
+        (0, 0, *velocity),
+        method='DOP853',
+        rtol=1e-12,
+        atol=1e-12,
+        t_eval=times,
+    ).y.T
     for time, row in zip(times[1:], exact[1:]):
         world.advance(time - world.time)
         ball = world['ball']
         limit = max(ACCURACY[accuracy].limits.path, EXACT)
         assert ball.phase == Phase.ROLL
-        np.testing.assert_allclose(basis @ (np.array(ball.position) - start), row[:2], atol=2 * limit)
+        np.testing.assert_allclose(
+            basis @ (np.array(ball.position) - start), row[:2], atol=2 * limit
+        )
         np.testing.assert_allclose(basis @ ball.velocity, row[2:], atol=100 * limit)
 
 
@@ -360,6 +428,7 @@ def test_a_ball_at_rest_turns_no_more():
 
 # Resting
 
+
 def resting_cases():
     """Slopes just below and above each of the two limits, for several materials."""
     cases = []
@@ -372,7 +441,9 @@ def resting_cases():
 
 
 @pytest.mark.parametrize('tangent, resistance, static', resting_cases())
-def test_a_ball_rests_where_rolling_resistance_and_static_friction_hold_it(tangent, resistance, static):
+def test_a_ball_rests_where_rolling_resistance_and_static_friction_hold_it(
+    tangent, resistance, static
+):
     material = Material('slope', Restitution(0.0), 0.0, static, 0.5 * static, resistance)
     holds = 5 / 7 * tangent <= resistance and tangent <= static
     world = World(slope(atan(tangent), material), effects=GRAVITY)
@@ -399,14 +470,18 @@ def test_a_putt_uphill_stays_or_comes_back(tilt, rests):
 
 # Micro-bounces, too small to follow
 
+
 def rests_with(settle, velocities, spins, course, effects=GRAVITY):
     """Where shots in vacuum rest when rebounds slower than `settle` are summed."""
     preset = Preset(ACCURACY['reference'].method, Limits(settle, 1e-10))
     return simulate_many(course, velocities, spins, effects=effects, accuracy=preset)
 
 
-KINDS = {'hard': HARD, 'slick': HARD._replace(dynamic_friction=0.05),
-         'lively': HARD._replace(restitution=Restitution(0.8))}
+KINDS = {
+    'hard': HARD,
+    'slick': HARD._replace(dynamic_friction=0.05),
+    'lively': HARD._replace(restitution=Restitution(0.8)),
+}
 
 
 @pytest.mark.parametrize('kind', KINDS)
@@ -422,11 +497,13 @@ def test_summing_the_last_bounces_moves_the_rest_with_the_square_of_their_speed(
 
 @pytest.mark.parametrize('rise', [0.0, 0.05])
 def test_the_sum_of_the_last_bounces_counts_that_soft_turf_throws_a_fast_ball_up(rise):
-    # Without that, half of them are off by more than 5e-4 m. Up a rise, balls that skim live on it.
+    # Without that, half of them are off by more than 5e-4 m. Up a rise, balls that skim live on
+    # it.
     velocities, spins = random_shots(300, seed=7)
     course = slope(-rise, TURF)
-    exact, summed = (rests_with(settle, velocities, spins, course, (*GRAVITY, 'turf'))
-                     for settle in (1e-5, 0.1))
+    exact, summed = (
+        rests_with(settle, velocities, spins, course, (*GRAVITY, 'turf')) for settle in (1e-5, 0.1)
+    )
     off = np.linalg.norm(summed['position'] - exact['position'], axis=1)
     assert np.median(off) < 1e-4 and off.max() < 2e-3
 
@@ -452,7 +529,9 @@ def time_at(u, pull, friction, time):
 @pytest.mark.parametrize('friction', [0.0, 1e-18, 1e-3, 4.9])
 @pytest.mark.parametrize('speed', [1e-9, 1e-6, 1e-3, 1.0, 100.0])
 @pytest.mark.parametrize('time', [1e-6, 1e-2, 10.0])
-def test_where_a_slide_down_a_slope_is_at_a_time_is_found_however_slow_it_begins(speed, friction, time):
+def test_where_a_slide_down_a_slope_is_at_a_time_is_found_however_slow_it_begins(
+    speed, friction, time
+):
     for heading in np.arange(0.1, 6.3, 0.5):
         u = speed * cos(heading), speed * sin(heading), 0.0
         assert time_at(u, (5.0, 0.0, 0.0), friction, time) == pytest.approx(time, rel=1e-9)

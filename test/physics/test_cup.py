@@ -1,11 +1,38 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The hole: which putts it takes follows from contact alone, and what it takes lies on its bottom."""
+
 from math import cos, hypot, sin, sqrt
 import os
 
-from golf_sim_ros.physics import (Collision, Course, Material, PENNER, Patch, Phase, Plane, Rejected, Result,
-                                  World, ground_height, rolling_resistance_of_stimp)
-from golf_sim_ros.physics.geometry.cup import DEPTH, RADIUS as HOLE
+from golf_sim_ros.physics import (
+    Collision,
+    Course,
+    ground_height,
+    Material,
+    Patch,
+    PENNER,
+    Phase,
+    Plane,
+    Rejected,
+    Result,
+    rolling_resistance_of_stimp,
+    World,
+)
+from golf_sim_ros.physics.geometry.cup import DEPTH
+from golf_sim_ros.physics.geometry.cup import RADIUS as HOLE
 from golf_sim_ros.physics.geometry.solid import FLAGSTICK_RADIUS
 import numpy as np
 from oracles import RADIUS
@@ -24,8 +51,15 @@ def green(slope=0.0, heading=0.0, flagstick=False, patch=False):
     normal = tuple(part / sqrt(1 + slope * slope) for part in normal)
     middle = (0.0, 0.0, 0.0)
     ground = Patch(middle, normal, 0.0, 4.0, 4.0, GREEN) if patch else Plane(middle, normal, GREEN)
-    return World(Course((Plane((0.0, 0.0, -1.0), material=GREEN), ground), tee=(-1.0, 0.0), hole=(0.0, 0.0),
-                        flagstick=flagstick, effects=('gravity', 'turf')))
+    return World(
+        Course(
+            (Plane((0.0, 0.0, -1.0), material=GREEN), ground),
+            tee=(-1.0, 0.0),
+            hole=(0.0, 0.0),
+            flagstick=flagstick,
+            effects=('gravity', 'turf'),
+        )
+    )
 
 
 def roll(world, speed, aside, heading=0.0):
@@ -33,7 +67,7 @@ def roll(world, speed, aside, heading=0.0):
     normal = np.array(world.course.ground[1].normal)
     ahead = np.array((cos(heading), sin(heading), 0.0))
     left = np.array((-ahead[1], ahead[0], 0.0))
-    place = -(sqrt(max(HOLE ** 2 - aside ** 2, 0.0)) + SOON) * ahead + aside * left
+    place = -(sqrt(max(HOLE**2 - aside**2, 0.0)) + SOON) * ahead + aside * left
     place[2] = -(normal @ place) / normal[2]
     velocity = ahead - (ahead @ normal) * normal
     velocity *= speed / np.linalg.norm(velocity)
@@ -59,9 +93,11 @@ def inside(position, flagstick):
 
 def escape_speed(world, aside, low, high):
     """Lowest speed, to 0.02 m/s, between `low`, which is holed, and `high`, which is not."""
+
     def is_holed(speed):
         roll(world, speed, aside)
         return world['ball'].phase == Phase.HOLED
+
     assert is_holed(low) and not is_holed(high)
     while high - low > 0.02:
         middle = 0.5 * (low + high)
@@ -69,10 +105,12 @@ def escape_speed(world, aside, low, high):
     return high
 
 
-@pytest.mark.parametrize('aside, low, high', [(0.0, 1.31, 2.3), (0.01, 1.40, 1.70), (0.5 * HOLE, 1.0, 1.4)])
+@pytest.mark.parametrize(
+    'aside, low, high', [(0.0, 1.31, 2.3), (0.01, 1.40, 1.70), (0.5 * HOLE, 1.0, 1.4)]
+)
 def test_a_putt_is_too_fast_for_the_hole_where_published_analyses_say(aside, low, high):
-    # Holmes, Am. J. Phys. 59 (1991) 129; Penner, Can. J. Phys. 80 (2002) 83. At 1.31 m/s a ball across
-    # the middle has fallen by its radius when it meets the far rim.
+    # Holmes, Am. J. Phys. 59 (1991) 129; Penner, Can. J. Phys. 80 (2002) 83. At 1.31 m/s a ball
+    # across the middle has fallen by its radius when it meets the far rim.
     assert low <= escape_speed(green(), aside, low, high) <= high
 
 
@@ -105,8 +143,15 @@ def test_a_holed_ball_rests_on_the_bottom(slope, patch, flagstick):
 
 def test_any_putt_at_the_hole_ends_holed_or_out_of_it_and_gains_no_energy():
     random = np.random.default_rng(4)
-    worlds = [green(slope, heading, flagstick) for slope, heading, flagstick in
-              ((0.0, 0.0, False), (0.0, 0.0, True), (0.03, 1.0, False), (0.05, 4.0, True))]
+    worlds = [
+        green(slope, heading, flagstick)
+        for slope, heading, flagstick in (
+            (0.0, 0.0, False),
+            (0.0, 0.0, True),
+            (0.03, 1.0, False),
+            (0.05, 4.0, True),
+        )
+    ]
     for i in range(PUTTS):
         world = worlds[i % len(worlds)]
         roll(world, random.uniform(0.1, 3), random.uniform(-0.05, 0.05), random.uniform(0, 6.3))
@@ -119,7 +164,9 @@ def test_a_ball_dropped_between_flagstick_and_wall_falls_to_the_bottom():
     middle = 0.5 * (HOLE + FLAGSTICK_RADIUS)
     world.place('ball', (middle, 0, 0.1))
     world.advance(3.0)
-    assert world['ball'].phase == Phase.HOLED and world['ball'].position[2] == pytest.approx(RADIUS - DEPTH)
+    assert world['ball'].phase == Phase.HOLED and world['ball'].position[2] == pytest.approx(
+        RADIUS - DEPTH
+    )
 
 
 def test_a_fat_ball_wedged_between_flagstick_and_wall_comes_to_rest_there():
@@ -162,4 +209,7 @@ def test_a_putt_that_stops_short_or_passes_beside_is_left_on_the_green():
 
 
 def test_the_ground_of_the_hole_is_that_around_it():
-    assert ground_height(green(0.05, flagstick=True).course, 0.0, 0.0) == (pytest.approx(0.0), 'green')
+    assert ground_height(green(0.05, flagstick=True).course, 0.0, 0.0) == (
+        pytest.approx(0.0),
+        'green',
+    )

@@ -1,11 +1,35 @@
-# SPDX-License-Identifier: Apache-2.0
-"""The contract of every registered effect: documented, finite, repeatable; absent is the same as off."""
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""The contract of every registered effect: documented, finite, repeatable.
+
+Absent is the same as off.
+"""
+
 from itertools import product
 from math import isfinite
 
-from driving_range import HARD, TURF, level
-from golf_sim_ros.physics import ACCURACY, Air, EFFECTS, Shot, World, register_effect, simulate
-from golf_sim_ros.physics.effects import Scene, choose, effective_normal, flight_rates, protocol, gravity_at
+from driving_range import HARD, level, TURF
+from golf_sim_ros.physics import ACCURACY, Air, EFFECTS, register_effect, Shot, simulate, World
+from golf_sim_ros.physics.effects import (
+    choose,
+    effective_normal,
+    flight_rates,
+    gravity_at,
+    protocol,
+    Scene,
+)
 from golf_sim_ros.physics.engine.engines import missing
 from golf_sim_ros.physics.jit import compiled, entry
 from golf_sim_ros.physics.scene.kernel_model import build_model, ground
@@ -24,8 +48,15 @@ SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
 effects = pytest.mark.parametrize('name', EFFECTS)
 # Effects of what these scenes do not have; that they matter is shown where they are tested.
 ELSEWHERE = {'ball_ball', 'foliage', 'water'}
-ON_REQUEST = {'linear_drag', 'ferguson_drag', 'ferguson_lift', 'penner_2002',
-              'smits_smith_1994', 'naruo_2004', 'bearman_harvey_1976'}
+ON_REQUEST = {
+    'linear_drag',
+    'ferguson_drag',
+    'ferguson_lift',
+    'penner_2002',
+    'smits_smith_1994',
+    'naruo_2004',
+    'bearman_harvey_1976',
+}
 CASTS = {'drag': 'Drag', 'magnus': 'Magnus', 'spin_decay': 'SpinDecay', 'turf': 'Turf'}
 # The others are left out because one is better, not because they would do nothing.
 AUTOMATIC = [name for name in EFFECTS if not EFFECTS[name].instead_of]
@@ -38,16 +69,24 @@ def types_differ():
 
 
 def test_the_contract_knows_the_effects_of_the_interface():
-    assert {'gravity', 'drag', 'magnus', 'spin_decay', 'wind', 'turf', 'linear_drag'} <= set(EFFECTS)
+    assert {'gravity', 'drag', 'magnus', 'spin_decay', 'wind', 'turf', 'linear_drag'} <= set(
+        EFFECTS
+    )
     assert types_differ()
 
 
 @effects
 def test_an_effect_is_documented(name):
     record = EFFECTS[name].record(SCENES['wind'])
-    assert EFFECTS[name].doc.endswith('.') and len(EFFECTS[name].doc) > 20 and '\n' not in EFFECTS[name].doc
+    assert (
+        EFFECTS[name].doc.endswith('.')
+        and len(EFFECTS[name].doc) > 20
+        and '\n' not in EFFECTS[name].doc
+    )
     doc = type(record).__doc__
-    assert not doc.startswith(type(record).__name__ + '('), 'has the docstring of a NamedTuple only'
+    assert not doc.startswith(type(record).__name__ + '('), (
+        'has the docstring of a NamedTuple only'
+    )
 
 
 @effects
@@ -60,14 +99,24 @@ def test_an_effect_is_a_record_of_finite_numbers(name):
 
 @pytest.fixture(scope='module')
 def told():
-    """What each effect says, differs by, and changes where auto leaves it out; from two processes."""
+    """What each effect says, differs by, and changes where auto leaves it out.
+
+    From two processes.
+    """
     return run(findings), run(findings)
 
 
 def findings():
     """All of that, by name."""
-    return {name: {'answers': answers(name), 'said': said(name), 'difference': difference(name),
-                   'ends': ends_without_and_with(name)} for name in EFFECTS}
+    return {
+        name: {
+            'answers': answers(name),
+            'said': said(name),
+            'difference': difference(name),
+            'ends': ends_without_and_with(name),
+        }
+        for name in EFFECTS
+    }
 
 
 @effects
@@ -82,14 +131,19 @@ def test_an_effect_is_finite_and_repeatable(name, told):
 @entry
 def asked(effect, ground, flow, force):
     """What an effect says of a flying ball: acceleration, spin rate, longest step."""
-    return (protocol.acceleration(effect, flow), protocol.spin_rate(effect, flow),
-            protocol.longest_step(effect, ground, flow, force, 2.0))
+    return (
+        protocol.acceleration(effect, flow),
+        protocol.spin_rate(effect, flow),
+        protocol.longest_step(effect, ground, flow, force, 2.0),
+    )
 
 
 def said(name, run=asked):
     """All that of one ball, by `asked` or what it was compiled to."""
     velocity, spin = (40.0, 3.0, 14.0), (20.0, -280.0, 10.0)
-    flow = protocol.Flow(velocity, float(np.linalg.norm(velocity)), spin, (1.0, 2.0, 30.0), velocity)
+    flow = protocol.Flow(
+        velocity, float(np.linalg.norm(velocity)), spin, (1.0, 2.0, 30.0), velocity
+    )
     scene = SCENES['wind']
     return run(EFFECTS[name].record(scene), ground(scene.course), flow, (-8.0, 0.5, -6.0))
 
@@ -105,7 +159,15 @@ def test_an_effect_says_the_same_compiled(name, told):
 def answers(name):
     """What an effect alone says of many states, extreme ones too: acceleration, spin rate, pull, normal."""
     told = []
-    speeds = ((0, 0, 0), (1e-9, 0, 0), (0.1, 0, -0.1), (70, 3, 14), (0, 0, -30), (0, 0, 30), (150, 0, 0))
+    speeds = (
+        (0, 0, 0),
+        (1e-9, 0, 0),
+        (0.1, 0, -0.1),
+        (70, 3, 14),
+        (0, 0, -30),
+        (0, 0, 30),
+        (150, 0, 0),
+    )
     spins = ((0, 0, 0), (1e-9, 0, 0), (0, -280, 0), (2500, 0, 0), (3, 4, -1000))
     for scene in SCENES.values():
         model = build_model(scene.course, [EFFECTS[name].record(scene)], ACCURACY['standard'])
@@ -113,8 +175,13 @@ def answers(name):
             place = (1.0, 2.0, height)
             velocity, spin = tuple(map(float, velocity)), tuple(map(float, spin))
             rates = flight_rates(model.effects, model.land.ground, place, velocity, spin)
-            told.append((*rates, gravity_at(model.land.effects, place),
-                         effective_normal(model.land.effects, (0.0, 0.0, 1.0), velocity, 1.0)))
+            told.append(
+                (
+                    *rates,
+                    gravity_at(model.land.effects, place),
+                    effective_normal(model.land.effects, (0.0, 0.0, 1.0), velocity, 1.0),
+                )
+            )
     return told
 
 
@@ -167,7 +234,11 @@ def test_an_effect_that_is_on_matters(name, told):
 def difference(name):
     """By how much [m] a shot in the wind would come to rest elsewhere, or come down, without an effect."""
     scene = SCENES['wind']
-    others = [other for other in choose('auto', scene).on if other not in (name, *EFFECTS[name].instead_of)]
+    others = [
+        other
+        for other in choose('auto', scene).on
+        if other not in (name, *EFFECTS[name].instead_of)
+    ]
     places = []
     for names in ((*others, name), others):
         world = World(scene.course, wind=scene.wind, effects=names)
@@ -198,10 +269,16 @@ def test_effects_not_asked_for_are_off_and_say_so():
 def test_what_is_off_is_of_no_type_that_the_kernels_see(scene):
     course, wind = SCENES[scene].course, SCENES[scene].wind
     world = World(course, wind=wind, engine='python')
-    kinds = {type(record).__name__ for record in (*world._model.effects, *world._model.land.effects)}
+    kinds = {
+        type(record).__name__ for record in (*world._model.effects, *world._model.land.effects)
+    }
     assert {CASTS[name] for name in CASTS if name in world.effects_on} <= kinds
     assert not kinds & {CASTS[name] for name in CASTS if name in world.effects_off}
-    assert not kinds & {'Drag', 'Magnus', 'SpinDecay'} & {type(r).__name__ for r in world._model.land.effects}
+    assert (
+        not kinds
+        & {'Drag', 'Magnus', 'SpinDecay'}
+        & {type(r).__name__ for r in world._model.land.effects}
+    )
 
 
 def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_plans_no_segment():
@@ -210,7 +287,10 @@ def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_plans_no_seg
 
 
 def evaluations():
-    """Evaluations of the rates of flight: of a short flight, of a roll at two times; the end of the rest."""
+    """Evaluations of the rates of flight: of a short flight, of a roll at two times.
+
+    The end of the rest.
+    """
     world, told = World(level(TURF)), []
     for velocity in ((3.0, 0.0, 3.0), (2.0, 0.0, 0.0)):
         world._balls[0]['evaluations'] = 0
@@ -227,8 +307,12 @@ def test_what_was_asked_for_and_the_scene_can_not_have_is_told_with_the_reason()
     asked = ('gravity', 'drag', 'magnus', 'turf', 'ball_ball', 'water', 'wind', 'foliage')
     chosen = choose(asked, SCENES['hard ground'])
     assert chosen.on.keys() == set(asked)  # honoured all the same
-    assert chosen.needless == {'turf': 'all ground is hard', 'ball_ball': 'one ball', 'water': 'no water',
-                               'foliage': 'no leaves'}  # wind may still come
+    assert chosen.needless == {
+        'turf': 'all ground is hard',
+        'ball_ball': 'one ball',
+        'water': 'no water',
+        'foliage': 'no leaves',
+    }  # wind may still come
     assert choose('auto', SCENES['hard ground']).needless == {}
 
 
@@ -244,12 +328,19 @@ def test_an_unknown_effect_is_named_with_the_known_ones():
         World(level(TURF), effects=('gravity', 'rain'))
 
 
-@pytest.mark.parametrize('names, said', [
-    (('gravity', 'dragg'), "; did you mean 'drag'"),
-    (('auto', 'wind'), 'auto stands alone'),
-    (('drag', 'ferguson_drag'), "'drag' and 'ferguson_drag' are two laws for the same"),
-    (('naruo_2004', 'ferguson_lift'), "'naruo_2004' and 'ferguson_lift' are two laws for the same"),
-    ('rain', "'rain' is unknown")])
+@pytest.mark.parametrize(
+    'names, said',
+    [
+        (('gravity', 'dragg'), "; did you mean 'drag'"),
+        (('auto', 'wind'), 'auto stands alone'),
+        (('drag', 'ferguson_drag'), "'drag' and 'ferguson_drag' are two laws for the same"),
+        (
+            ('naruo_2004', 'ferguson_lift'),
+            "'naruo_2004' and 'ferguson_lift' are two laws for the same",
+        ),
+        ('rain', "'rain' is unknown"),
+    ],
+)
 def test_names_that_do_not_go_together_are_refused(names, said):
     with pytest.raises(ValueError, match=said):
         choose(names, SCENES['wind'])
@@ -267,8 +358,9 @@ def test_another_package_can_add_an_effect():
 
 def ends_with_down_draught():
     """Ends of a shot without and with an effect that another package registers."""
-    from golf_sim_ros.physics.effects import protocol
     from typing import NamedTuple
+
+    from golf_sim_ros.physics.effects import protocol
 
     class DownDraught(NamedTuple):
         push: float = 1.0
@@ -284,5 +376,7 @@ def test_a_live_parameter_is_set_by_the_name_of_its_effect():
     as_wind.set_wind((3, 4, 0))
     assert by_name.live == as_wind.live == {'wind': (3.0, 4.0, 0.0)}
     assert by_name.state() == as_wind.state() and by_name.effects_on == as_wind.effects_on
-    with pytest.raises(ValueError, match="'drag' has nothing that can be set; those that do: wind"):
+    with pytest.raises(
+        ValueError, match="'drag' has nothing that can be set; those that do: wind"
+    ):
         by_name.set_live('drag', (1.0,))

@@ -1,16 +1,43 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Laws that hold for every shot: it ends, on the ground, and in still air it gains no energy."""
+
 from math import inf
 import os
 
-from hypothesis import HealthCheck, given, settings
+from golf_sim_ros.course import load_course
+from golf_sim_ros.physics import (
+    Course,
+    Cylinder,
+    ground_height,
+    Heightmap,
+    LogProfile,
+    Material,
+    Mesh,
+    Patch,
+    Phase,
+    Plane,
+    Restitution,
+    Result,
+    simulate_many,
+    World,
+)
+from hypothesis import given, HealthCheck, settings
 from hypothesis import strategies as st
 import numpy as np
 import pytest
-
-from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import (Course, Cylinder, Heightmap, LogProfile, Material, Mesh, Patch, Phase,
-                                  Plane, Restitution, Result, World, ground_height, simulate_many)
 from scene import depth, energy, touches
 
 SHOTS = int(os.environ.get('RANDOM_SHOTS', 300))  # 10000 for the whole lot
@@ -32,8 +59,10 @@ def directions(random, count):
 def shots(count, seed):
     """Velocities to 120 m/s and spins to 1000 rad/s in any direction."""
     random = np.random.default_rng(seed)
-    return (random.uniform(0, 120, (count, 1)) * directions(random, count),
-            random.uniform(0, 1000, (count, 1)) * directions(random, count))
+    return (
+        random.uniform(0, 120, (count, 1)) * directions(random, count),
+        random.uniform(0, 1000, (count, 1)) * directions(random, count),
+    )
 
 
 @pytest.fixture(scope='module')
@@ -43,7 +72,10 @@ def links():
 
 
 def watch(world, name='ball', tick=TICK, until=inf):
-    """Play to the end, or `until` then, with an eye on the ball at every tick; return what happened."""
+    """Play to the end, or `until` then, with an eye on the ball at every tick.
+
+    Return what happened.
+    """
     told, last = [], energy(world.course, world[name])
     while world.moving and world.time < until:
         events = world.advance(tick)
@@ -54,7 +86,11 @@ def watch(world, name='ball', tick=TICK, until=inf):
         now = energy(world.course, ball)
         assert np.isfinite((*ball.position, *ball.velocity, *ball.spin)).all(), (world.time, ball)
         assert depth(world.course, ball.position) < 2e-6, (world.time, ball)
-        assert now <= last + RELATIVE * abs(last) * (1 + len(events)) + LIFT, (world.time, now - last, ball)
+        assert now <= last + RELATIVE * abs(last) * (1 + len(events)) + LIFT, (
+            world.time,
+            now - last,
+            ball,
+        )
         last = now
     return told
 
@@ -103,19 +139,41 @@ def of(*values):
 
 
 materials = st.builds(
-    Material, of('any'), st.builds(Restitution, numbers(0, 1), of(0.0), of(0.0), numbers(0, 0.2)),
-    numbers(-1, 1), numbers(0, 2), numbers(0, 2), numbers(0.01, 2),
-    of(0.0) | numbers(1e-4, 0.01),  # with less a ball turns on the spot for hours, and ends all the same
-    numbers(0, 1.5), of(()), of(0.0))
+    Material,
+    of('any'),
+    st.builds(Restitution, numbers(0, 1), of(0.0), of(0.0), numbers(0, 0.2)),
+    numbers(-1, 1),
+    numbers(0, 2),
+    numbers(0, 2),
+    numbers(0.01, 2),
+    # with less a ball turns on the spot for hours, and ends all the same
+    of(0.0) | numbers(1e-4, 0.01),
+    numbers(0, 1.5),
+    of(()),
+    of(0.0),
+)
 patches = st.builds(
-    Patch, st.tuples(numbers(-3, 3), numbers(-3, 3), numbers(0, 1)),
-    vectors(1).filter(lambda n: np.linalg.norm(n) > 0.1).map(
-        lambda n: tuple(np.array(n) / np.linalg.norm(n))),
-    numbers(-3, 3), numbers(0.01, 5), numbers(0.01, 5), materials, of(False), of(()))
+    Patch,
+    st.tuples(numbers(-3, 3), numbers(-3, 3), numbers(0, 1)),
+    vectors(1)
+    .filter(lambda n: np.linalg.norm(n) > 0.1)
+    .map(lambda n: tuple(np.array(n) / np.linalg.norm(n))),
+    numbers(-3, 3),
+    numbers(0.01, 5),
+    numbers(0.01, 5),
+    materials,
+    of(False),
+    of(()),
+)
 
 
-@settings(max_examples=SHOTS // 20, deadline=None, derandomize=True, database=None,
-          suppress_health_check=list(HealthCheck))
+@settings(
+    max_examples=SHOTS // 20,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=list(HealthCheck),
+)
 @given(st.lists(patches, max_size=6), vectors(20), vectors(300))
 def test_a_ball_among_patches_anyhow_gains_no_energy(clutter, velocity, spin):
     course = Course((Plane((0, 0, -1), material=ROUGH), *clutter), tee=(20.0, 0.0), effects=STILL)
@@ -132,23 +190,42 @@ def hills(heights, material):
     heights = np.reshape(heights, (5, 5))
     x, y = np.meshgrid(np.linspace(1.0, 3.0, 5), np.linspace(-1.0, 1.0, 5))
     first = np.arange(25).reshape(5, 5)[:-1, :-1].ravel()
-    faces = np.concatenate([np.c_[first, first + 1, first + 6], np.c_[first, first + 6, first + 5]])
-    return (Heightmap(heights, (-1.0, -1.0), 0.5, material),
-            Mesh(np.c_[x.ravel(), y.ravel(), heights.ravel()], faces, material))
+    faces = np.concatenate(
+        [np.c_[first, first + 1, first + 6], np.c_[first, first + 6, first + 5]]
+    )
+    return (
+        Heightmap(heights, (-1.0, -1.0), 0.5, material),
+        Mesh(np.c_[x.ravel(), y.ravel(), heights.ravel()], faces, material),
+    )
 
 
 lands = st.builds(hills, st.lists(numbers(0, 0.4), min_size=25, max_size=25), materials)
-trunks = st.builds(Cylinder, st.tuples(numbers(-1, 3), numbers(-1, 1), of(-1.0)), numbers(0.01, 0.3), of(2.0),
-                   materials)
+trunks = st.builds(
+    Cylinder,
+    st.tuples(numbers(-1, 3), numbers(-1, 1), of(-1.0)),
+    numbers(0.01, 0.3),
+    of(2.0),
+    materials,
+)
 
 
-@settings(max_examples=SHOTS // 20, deadline=None, derandomize=True, database=None,
-          suppress_health_check=list(HealthCheck))
+@settings(
+    max_examples=SHOTS // 20,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=list(HealthCheck),
+)
 @given(lands, st.lists(trunks, min_size=1, max_size=2), vectors(10), vectors(300))
 def test_a_ball_on_any_hills_among_trunks_gains_no_energy(land, trees, velocity, spin):
-    course = Course((Plane((0, 0, -1), material=ROUGH), *land), tee=(9.0, 0.0), obstacles=tuple(trees),
-                    effects=STILL)
-    world = World(course, accuracy='reference')  # with others a step along hills errs by 1e-5 m, either way
+    course = Course(
+        (Plane((0, 0, -1), material=ROUGH), *land),
+        tee=(9.0, 0.0),
+        obstacles=tuple(trees),
+        effects=STILL,
+    )
+    # with others a step along hills errs by 1e-5 m, either way
+    world = World(course, accuracy='reference')
     try:
         world.place('ball', (0.9, 0.0, 1.0), velocity, spin)
     except ValueError:
@@ -157,7 +234,10 @@ def test_a_ball_on_any_hills_among_trunks_gains_no_energy(land, trees, velocity,
     while world.moving and world.time < 10.0:
         events = world.advance(TICK)
         now = energy(course, world['ball'])
-        assert now <= last + RELATIVE * abs(last) * (1 + len(events)) + LIFT, (world.time, now - last)
+        assert now <= last + RELATIVE * abs(last) * (1 + len(events)) + LIFT, (
+            world.time,
+            now - last,
+        )
         last = now
     assert np.isfinite((*world['ball'].position, last)).all()
 
@@ -252,5 +332,9 @@ def test_a_shot_that_never_stops_ends_at_the_time_limit():
     told = []
     for _ in range(301):
         told += world.advance(1.0)
-    result, = (event for event in told if isinstance(event, Result))
-    assert result.status == 'time_limit' and result.duration == pytest.approx(300) and not world.moving
+    (result,) = (event for event in told if isinstance(event, Result))
+    assert (
+        result.status == 'time_limit'
+        and result.duration == pytest.approx(300)
+        and not world.moving
+    )

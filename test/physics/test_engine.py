@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Two engines for the same physics: plain Python at once, compiled code where the play calls for it."""
+
 from collections import Counter
 import importlib.util
 import json
@@ -9,22 +23,32 @@ import subprocess
 import sys
 import time
 
-from driving_range import DRIVE, HARD, TURF, level, random_shots
+from driving_range import DRIVE, HARD, level, random_shots, TURF
+from golf_sim_ros.course import load_course, shipped_courses
+from golf_sim_ros.physics import (
+    Air,
+    batch,
+    EngineUnavailable,
+    PowerProfile,
+    Shot,
+    simulate,
+    simulate_many,
+    World,
+)
+from golf_sim_ros.physics.engine import engines
+from golf_sim_ros.physics.jit import build, GENERICS, ROLES
+from golf_sim_ros.physics.jit.build import Build, BUILD_FAILED, Part, READY
 import numpy as np
 from other_process import run
 import pytest
 
-from golf_sim_ros.course import load_course, shipped_courses
-from golf_sim_ros.physics import Air, EngineUnavailable, PowerProfile, Shot, World, simulate, simulate_many
-from golf_sim_ros.physics import batch
-from golf_sim_ros.physics.engine import engines
-from golf_sim_ros.physics.jit import GENERICS, ROLES, build
-from golf_sim_ros.physics.jit.build import Build, BUILD_FAILED, Part, READY
-
-needs_numba = pytest.mark.skipif(bool(engines.missing()), reason=engines.missing() or 'numba is here')
+needs_numba = pytest.mark.skipif(
+    bool(engines.missing()), reason=engines.missing() or 'numba is here'
+)
 COURSES = sorted(shipped_courses())
 OTHER_COURSES = {
-    'hard ground': level(HARD), 'no air': level(TURF, air=Air(pressure=0.0)),
+    'hard ground': level(HARD),
+    'no air': level(TURF, air=Air(pressure=0.0)),
     'a power law': level(TURF, wind_profile=PowerProfile()),
     'gravity by name': level(TURF, effects=('gravity',)),
 }
@@ -48,8 +72,11 @@ def drive(world):
 
 # Which engine plays
 
+
 def test_an_unknown_engine_is_refused_with_the_known_ones():
-    with pytest.raises(ValueError, match="engine 'fast' is unknown; known: auto, python, compiled"):
+    with pytest.raises(
+        ValueError, match="engine 'fast' is unknown; known: auto, python, compiled"
+    ):
         World(level(TURF), engine='fast')
     with pytest.raises(ValueError, match="engine 'fast' is unknown"):
         simulate_many(level(TURF), [DRIVE[0]], [DRIVE[1]], engine='fast')
@@ -62,7 +89,9 @@ def test_a_world_begins_in_plain_python(programs):
 
 
 @needs_numba
-def test_the_compiled_engine_takes_over_between_shots_where_plain_python_takes_long(programs, monkeypatch):
+def test_the_compiled_engine_takes_over_between_shots_where_plain_python_takes_long(
+    programs, monkeypatch
+):
     monkeypatch.setattr(engines, 'WORTH_COMPILING', 0.0)
     world = World(level(TURF))
     first = drive(world)
@@ -90,7 +119,10 @@ def test_what_is_missing_is_said_once_where_plain_python_takes_long(programs, mo
 
 def test_without_numba_the_compiled_engine_is_refused_with_the_reason():
     told = run(refusal, plain=True)
-    assert told in ('NUMBA_DISABLE_JIT is set', *([] if importlib.util.find_spec('numba') else [told]))
+    assert told in (
+        'NUMBA_DISABLE_JIT is set',
+        *([] if importlib.util.find_spec('numba') else [told]),
+    )
 
 
 def refusal():
@@ -118,7 +150,9 @@ def test_a_batch_is_compiled_where_it_has_many_shots_and_says_so(programs, monke
     np.testing.assert_allclose(many['position'][:3], few['position'], rtol=0, atol=1e-9)
 
 
-def test_a_batch_is_played_in_plain_python_where_numba_is_missing_and_says_so(programs, monkeypatch, caplog):
+def test_a_batch_is_played_in_plain_python_where_numba_is_missing_and_says_so(
+    programs, monkeypatch, caplog
+):
     monkeypatch.setattr(build, 'missing', lambda: 'numba is not installed: pip install numba')
     monkeypatch.setattr(batch, 'MANY_SHOTS', 20)
     simulate_many(level(TURF), *random_shots(20, seed=1))
@@ -126,6 +160,7 @@ def test_a_batch_is_played_in_plain_python_where_numba_is_missing_and_says_so(pr
 
 
 # The same physics
+
 
 @needs_numba
 @pytest.mark.parametrize('name', COURSES)
@@ -144,7 +179,9 @@ def test_both_engines_end_a_shot_at_the_same_place(name):
 
 def test_one_program_serves_every_course_with_one_ball_and_one_with_several():
     courses = [*map(load_course, COURSES), *OTHER_COURSES.values()]
-    one, several = ({World(course, balls, engine='python').program for course in courses} for balls in (1, 2))
+    one, several = (
+        {World(course, balls, engine='python').program for course in courses} for balls in (1, 2)
+    )
     assert len(one) == 1 and len(several) == 2  # without balls that collide it is that of one ball
     assert one < several
 
@@ -174,6 +211,7 @@ def test_a_world_goes_on_with_the_other_engine_in_mid_flight():
 
 # The child that compiles
 
+
 @needs_numba
 def test_a_compiler_that_aborts_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'missing', lambda: '')
@@ -181,7 +219,9 @@ def test_a_compiler_that_aborts_is_a_reason_in_one_line(monkeypatch):
     monkeypatch.setattr(build, 'numba_version', lambda: 'numba 0.65.0')
     aborted = Build(True, Part('nothing', os.abort, ()))
     assert aborted.wait(PATIENCE) and aborted.state == BUILD_FAILED
-    assert aborted.reason.startswith('numba 0.65.0 could not compile the physics (killed by SIGABRT): ')
+    assert aborted.reason.startswith(
+        'numba 0.65.0 could not compile the physics (killed by SIGABRT): '
+    )
     assert '\n' not in aborted.reason
 
 
@@ -205,12 +245,16 @@ def test_where_nothing_can_be_kept_nothing_is_compiled(monkeypatch, tmp_path):
 
 
 def test_a_child_ends_with_its_parent(tmp_path):
-    code = ("import time; from golf_sim_ros.physics.jit import build; build.missing = lambda: ''; "
-            "build.is_kept = lambda key: False; sleep = build.Part('key', time.sleep, (600.0,))\n"
-            "one = build.Build(False, sleep)\n"
-            "while not one.child: time.sleep(0.01)\n"
-            "print(one.child.pid, flush=True); time.sleep(600.0)")
-    with subprocess.Popen([sys.executable, '-c', code], cwd=ROOT, stdout=subprocess.PIPE) as parent:
+    code = (
+        "import time; from golf_sim_ros.physics.jit import build; build.missing = lambda: ''; "
+        "build.is_kept = lambda key: False; sleep = build.Part('key', time.sleep, (600.0,))\n"
+        'one = build.Build(False, sleep)\n'
+        'while not one.child: time.sleep(0.01)\n'
+        'print(one.child.pid, flush=True); time.sleep(600.0)'
+    )
+    with subprocess.Popen(
+        [sys.executable, '-c', code], cwd=ROOT, stdout=subprocess.PIPE
+    ) as parent:
         child = int(parent.stdout.readline())
         parent.kill()
     deadline = time.monotonic() + PATIENCE
@@ -226,6 +270,7 @@ def test_modules_of_effects_from_elsewhere_are_imported_by_the_child():
 def modules_with_an_effect_of_ours():
     """Modules that a child imports, once a test module has registered an effect."""
     from typing import NamedTuple
+
     from golf_sim_ros.physics.effects import protocol
 
     class Rain(NamedTuple):
@@ -233,6 +278,7 @@ def modules_with_an_effect_of_ours():
 
     def acceleration(effect, flow):
         return 0.0, 0.0, -effect.rate
+
     acceleration.__module__ = 'effect_from_elsewhere'
     protocol.acceleration.register(Rain)(acceleration)
     return [name for name in build.foreign_modules() if name != __name__]
@@ -255,9 +301,11 @@ def test_code_in_a_folder_that_can_only_be_read_is_used_in_place():
 def compiled_where_nothing_can_be_written():
     """How many functions of ours a process compiles that may only read what is kept."""
     from golf_sim_ros.physics.jit import cache
+
     kept = cache.folder()._replace(writable=False)
     cache.folder = lambda: kept
     from numba.core import event
+
     compiled = []
 
     class Listener(event.Listener):

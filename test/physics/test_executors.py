@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """`simulate_many` on every kind of executor that docs/tools.md names: the same bits, and no hang."""
+
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 import importlib.util
 from multiprocessing import get_context
@@ -19,7 +33,7 @@ COURSE = level(HARD)._replace(effects=('gravity',))
 VELOCITIES = np.linspace((2.0, -1.0, 3.0), (9.0, 1.0, 5.0), 12)
 SPINS = np.tile((0.0, -30.0, 2.0), (12, 1))
 HERE = Path(__file__).parent
-BY_MPI = '''
+BY_MPI = """
 from mpi4py.futures import MPIPoolExecutor
 import numpy as np
 from golf_sim_ros.physics import simulate_many
@@ -28,7 +42,7 @@ from test_executors import COURSE, SPINS, VELOCITIES
 if __name__ == "__main__":
     with MPIPoolExecutor() as ranks:
         np.save({!r}, simulate_many(COURSE, VELOCITIES, SPINS, executor=ranks, chunks=3))
-'''
+"""
 
 
 def alone():
@@ -52,8 +66,15 @@ def processes():
 def cluster(tmp_path):
     """The executor of a scheduler with two workers in processes of their own, and its client."""
     distributed = pytest.importorskip('distributed', reason='dask.distributed is not installed')
-    with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None,
-                                  local_directory=str(tmp_path)) as made, distributed.Client(made) as client:
+    with (
+        distributed.LocalCluster(
+            n_workers=2,
+            threads_per_worker=1,
+            dashboard_address=None,
+            local_directory=str(tmp_path),
+        ) as made,
+        distributed.Client(made) as client,
+    ):
         client.run(sys.path.extend, [str(HERE), str(HERE.parent)])
         yield client
 
@@ -82,8 +103,13 @@ def test_ranks_of_mpi_play_the_same_shots(tmp_path):
     script, told = tmp_path / 'shots.py', tmp_path / 'told.npy'
     script.write_text(BY_MPI.format(str(told)))
     path = os.pathsep.join([str(HERE.parents[1]), str(HERE), str(HERE.parent)])
-    done = subprocess.run([mpiexec, '-n', '3', sys.executable, '-m', 'mpi4py.futures', str(script)],
-                          env={**os.environ, 'PYTHONPATH': path}, capture_output=True, text=True, timeout=500)
+    done = subprocess.run(
+        [mpiexec, '-n', '3', sys.executable, '-m', 'mpi4py.futures', str(script)],
+        env={**os.environ, 'PYTHONPATH': path},
+        capture_output=True,
+        text=True,
+        timeout=500,
+    )
     assert done.returncode == 0, done.stderr
     assert np.load(told).tobytes() == alone().tobytes()
 
@@ -98,7 +124,9 @@ def test_no_shots_are_no_shots(workers):
 
 def test_a_process_that_is_killed_is_an_error_that_says_so(processes):
     lethal = Lethal(processes)
-    with pytest.raises(RuntimeError, match='^a worker of Lethal ended before its shots were played: '):
+    with pytest.raises(
+        RuntimeError, match='^a worker of Lethal ended before its shots were played: '
+    ):
         simulate_many(COURSE, VELOCITIES, SPINS, executor=lethal)
 
 

@@ -1,21 +1,34 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Whatever happens in the physics, a shot has an end: what is not a number any more has failed."""
+
 import json
 from math import inf, isfinite, nan
 from pathlib import Path
 import shutil
 
-import numpy as np
-import pytest
-
-from driving_range import TURF, level
+from driving_range import level, TURF
 from golf_sim_ros.course import load_course, shipped_courses
-from golf_sim_ros.physics import Phase, Result, World, simulate_many
+from golf_sim_ros.physics import Phase, Result, simulate_many, World
 from golf_sim_ros.physics.properties.air import Air
 from golf_sim_ros.physics.result import Collision
 from golf_sim_ros.physics.state.ball import BALL
 from golf_sim_ros.physics.state.serialize import restored
 from golf_sim_ros.recording.json_format import ball_text, collision_text, result_text
+import numpy as np
+import pytest
 
 CASES = Path(__file__).parents[1] / 'data' / 'cases'
 DRIVE, PUTT = (60.0, 1.0, 15.0), (2.0, 0.0, 0.0)
@@ -28,6 +41,7 @@ def case(tmp_path):
 
     def load(name):
         return load_course(shutil.copy(CASES / f'{name}.yaml', tmp_path))
+
     return load
 
 
@@ -46,11 +60,13 @@ def told_well(result):
     json.loads(result_text(result, 1))
 
 
-@pytest.mark.parametrize('velocity', [DRIVE, (70.0, 0.0, 14.0), (0.0, 0.0, 150.0), (-100.0, 0.0, 1.0)])
+@pytest.mark.parametrize(
+    'velocity', [DRIVE, (70.0, 0.0, 14.0), (0.0, 0.0, 150.0), (-100.0, 0.0, 1.0)]
+)
 def test_a_ball_of_a_metre_in_air_of_100_bar_is_stopped_by_it_and_comes_to_rest(case, velocity):
     world = World(case('not_a_number'))
     world.strike('ball', velocity)
-    result, = played(world)
+    (result,) = played(world)
     told_well(result)
     assert result.status == 'at_rest'
     assert result.total < 3.0
@@ -58,7 +74,9 @@ def test_a_ball_of_a_metre_in_air_of_100_bar_is_stopped_by_it_and_comes_to_rest(
 
 def test_the_recorded_shots_of_a_ball_of_a_milligram_have_finite_ends(case):
     world = World(case('not_a_number_2'), accuracy='sketch')
-    for velocity, spin, place in json.loads((CASES / 'not_a_number_2.json').read_text())['par']['shots']:
+    for velocity, spin, place in json.loads((CASES / 'not_a_number_2.json').read_text())['par'][
+        'shots'
+    ]:
         if place:
             world.place('ball', place)
         if world['ball'].phase != Phase.REST:
@@ -74,13 +92,13 @@ def test_air_that_is_no_number_ends_the_shot_as_failed_and_the_ball_goes_back():
     world = World(level(TURF)._replace(air=Air(pressure=inf)))
     before = world['ball']
     world.strike('ball', DRIVE)
-    result, = world.happened()
+    (result,) = world.happened()
     assert (result.status, result.shot, result.velocity) == ('failed', 1, DRIVE)
     assert result.reason == 'its motion was not a number any more, 0 s after the strike'
     told_well(result)
     assert world['ball'] == before
     world.strike('ball', PUTT)
-    result, = played(world)
+    (result,) = played(world)
     assert (result.status, result.shot) == ('at_rest', 2)
     assert world.failures == 1 and world.last_failure.startswith('ball: its motion')
 
@@ -105,7 +123,9 @@ def test_a_state_that_is_no_number_ends_its_own_shot_only(field, number):
     # It begins a new segment.
     assert found['red'].position == pytest.approx(expected['red'].position, abs=1e-2)
     told_well(found['blue'])
-    assert world['blue'].phase == Phase.REST and world['blue'].position[:2] == world.course.tee[:1] + (0.25,)
+    assert world['blue'].phase == Phase.REST and world['blue'].position[:2] == world.course.tee[
+        :1
+    ] + (0.25,)
 
 
 def test_a_placed_ball_that_is_no_number_goes_back_to_where_it_was_placed():
@@ -134,7 +154,12 @@ def test_a_collision_that_is_no_number_is_told_with_null():
 
 def test_a_ball_whose_record_holds_no_numbers_comes_back_from_the_journal_to_the_bit():
     ball = np.zeros((), BALL)
-    ball['phase'], ball['end'], ball['span'], ball['micro_bounce_end'] = Phase.FLIGHT, 1.5, 1.5, inf
+    ball['phase'], ball['end'], ball['span'], ball['micro_bounce_end'] = (
+        Phase.FLIGHT,
+        1.5,
+        1.5,
+        inf,
+    )
     ball['stages'][3, 4], ball['time_stepping'] = nan, 1
     again = restored(json.loads(ball_text(ball)))
     for name in BALL.names:

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A contact is told when the ball touches, not when it would have, had it gone on straight."""
+
 from driving_range import HARD
 from golf_sim_ros.physics import ACCURACY, Collision, Course, Mesh, Patch, Plane, World
 import numpy as np
@@ -10,7 +24,10 @@ from scene import touches
 SLOPE = (0.5, -0.3, 0.7)
 SHEETS = {
     'patch': Patch((0, 0, 0), SLOPE, 0.4, 2.0, 0.8, HARD),
-    'mesh': Mesh([(-1, -1, 0.2), (1, -1, -0.1), (1, 1, 0.3), (-1, 1, -0.2)], [(0, 1, 2), (0, 2, 3)], HARD)}
+    'mesh': Mesh(
+        [(-1, -1, 0.2), (1, -1, -0.1), (1, 1, 0.3), (-1, 1, -0.2)], [(0, 1, 2), (0, 2, 3)], HARD
+    ),
+}
 sheets = pytest.mark.parametrize('sheet', SHEETS.values(), ids=SHEETS)
 
 

@@ -1,34 +1,81 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A ball in the air: closed forms and symmetries."""
+
 from math import log, pi, radians
 
-from driving_range import (DRIVE, EVERYTHING, GRAVITY, HARD, TURF, hilly, launched, level, random_shots)
-from golf_sim_ros.physics import (ACCURACY, Course, EFFECTS, LogProfile, Patch, Phase, Plane, PowerProfile,
-                                  Shot, UniformProfile, World, register_effect, simulate, simulate_many)
+from driving_range import (
+    DRIVE,
+    EVERYTHING,
+    GRAVITY,
+    HARD,
+    hilly,
+    launched,
+    level,
+    random_shots,
+    TURF,
+)
+from golf_sim_ros.physics import (
+    ACCURACY,
+    Course,
+    EFFECTS,
+    LogProfile,
+    Patch,
+    Phase,
+    Plane,
+    PowerProfile,
+    register_effect,
+    Shot,
+    simulate,
+    simulate_many,
+    UniformProfile,
+    World,
+)
 from golf_sim_ros.physics.effects import wind_at
 from golf_sim_ros.physics.effects.drag import dynamic_push
 from golf_sim_ros.physics.effects.ferguson_drag import FergusonDrag
 from golf_sim_ros.physics.effects.ferguson_lift import FergusonLift
 from golf_sim_ros.physics.properties.air import density
-from hypothesis import HealthCheck, assume, given, settings, strategies as st
+from hypothesis import assume, given, HealthCheck, settings
+from hypothesis import strategies as st
 import numpy as np
 import oracles
 from other_process import run
 import pytest
 
 presets = pytest.mark.parametrize('accuracy', ACCURACY)
-few = settings(max_examples=25, deadline=None, derandomize=True, database=None,
-               suppress_health_check=[HealthCheck.too_slow])
+few = settings(
+    max_examples=25,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=[HealthCheck.too_slow],
+)
 
 
 # Closed forms
+
 
 @presets
 def test_a_ball_in_vacuum_lands_at_v2_sin2a_over_g(accuracy):
     rng = np.random.default_rng(1)
     speed, angle = rng.uniform(1, 100, 200), rng.uniform(0.1, 1.5, 200)
     spins = rng.uniform(-500, 500, (200, 3))
-    shots = simulate_many(level(TURF), launched(speed, angle), spins, effects=GRAVITY, accuracy=accuracy)
+    shots = simulate_many(
+        level(TURF), launched(speed, angle), spins, effects=GRAVITY, accuracy=accuracy
+    )
     told = shots['carry'], shots['apex'], shots['flight_time']
     exact = np.transpose([oracles.vacuum_flight(v, a) for v, a in zip(speed, angle)])
     np.testing.assert_allclose(told, exact, rtol=1e-9)  # parabolas are exact for every preset
@@ -45,19 +92,35 @@ def told():
 def findings():
     """All that is asked of the other process below, by preset where it depends on that."""
     with_constant_drag_and_lift()
-    by_preset = {accuracy: {'linear drag': error_of_linear_drag(accuracy), 'coast': coasting(accuracy),
-                            'throws': vertical_throws(accuracy)} for accuracy in ACCURACY}
-    return {**by_preset, 'circles': circling(), 'wind': {name: shares_of_wind(name) for name in PROFILES}}
+    by_preset = {
+        accuracy: {
+            'linear drag': error_of_linear_drag(accuracy),
+            'coast': coasting(accuracy),
+            'throws': vertical_throws(accuracy),
+        }
+        for accuracy in ACCURACY
+    }
+    return {
+        **by_preset,
+        'circles': circling(),
+        'wind': {name: shares_of_wind(name) for name in PROFILES},
+    }
 
 
 def with_constant_drag_and_lift():
     """Register drag and lift of constant coefficients, as a package of its own would."""
-    register_effect('constant_drag',
-                    lambda scene: FergusonDrag(dynamic_push(scene.course), 1.0, 0.4, 0.0, -1.0),
-                    lambda scene: 'only on request', 'Drag of constant coefficient.')
-    register_effect('constant_lift',
-                    lambda scene: FergusonLift(dynamic_push(scene.course), 1.0, 0.25, 0.0, -1.0, 0.0),
-                    lambda scene: 'only on request', 'Lift of constant coefficient.')
+    register_effect(
+        'constant_drag',
+        lambda scene: FergusonDrag(dynamic_push(scene.course), 1.0, 0.4, 0.0, -1.0),
+        lambda scene: 'only on request',
+        'Drag of constant coefficient.',
+    )
+    register_effect(
+        'constant_lift',
+        lambda scene: FergusonLift(dynamic_push(scene.course), 1.0, 0.25, 0.0, -1.0, 0.0),
+        lambda scene: 'only on request',
+        'Lift of constant coefficient.',
+    )
 
 
 @presets
@@ -69,10 +132,14 @@ def error_of_linear_drag(accuracy):
     """Greatest distance from the closed form, in time and at the landing."""
     worst = 0.0
     for velocity in ((60, 0, 20), (30, 5, 30), (5, 0, 2)):
-        play = simulate(level(HARD), Shot(velocity), effects=('gravity', 'linear_drag'), accuracy=accuracy)
+        play = simulate(
+            level(HARD), Shot(velocity), effects=('gravity', 'linear_drag'), accuracy=accuracy
+        )
         flying = play.times < play.result.flight_time
         for time, place in zip(play.times[flying], play.positions[flying] - play.positions[0]):
-            worst = max(worst, np.linalg.norm(place - oracles.linear_drag_path(velocity, 0.18, time)))
+            worst = max(
+                worst, np.linalg.norm(place - oracles.linear_drag_path(velocity, 0.18, time))
+            )
         landing = oracles.linear_drag_path(velocity, 0.18, play.result.flight_time)
         worst = max(worst, abs(play.result.carry - np.hypot(*landing[:2])), abs(landing[2]))
     return worst
@@ -102,12 +169,20 @@ def vertical_throws(accuracy):
     told = []
     for speed in THROWS:
         world = World(course, effects=('gravity', 'constant_drag'), accuracy=accuracy)
-        end = simulate(course, Shot((0, 0, speed)), effects=('gravity', 'constant_drag'), accuracy=accuracy)
+        end = simulate(
+            course, Shot((0, 0, speed)), effects=('gravity', 'constant_drag'), accuracy=accuracy
+        )
         world.strike('ball', (0, 0, speed))
         rise = oracles.quadratic_rise(speed, terminal)[1]
         world.advance(0.5 * (rise + end.result.flight_time))
-        told.append((end.result.apex, end.result.landing_speed, end.result.flight_time,
-                     world['ball'].position[2] - course.ball.radius))
+        told.append(
+            (
+                end.result.apex,
+                end.result.landing_speed,
+                end.result.flight_time,
+                world['ball'].position[2] - course.ball.radius,
+            )
+        )
     return told
 
 
@@ -137,7 +212,9 @@ def test_lift_alone_flies_a_ball_in_a_circle(told):
     for speed, positions in told['circles']:
         radius = 1 / (push * 0.25)
         middle = np.array((0, radius, 5))
-        np.testing.assert_allclose(np.linalg.norm(np.subtract(positions, middle), axis=1), radius, atol=1e-6)
+        np.testing.assert_allclose(
+            np.linalg.norm(np.subtract(positions, middle), axis=1), radius, atol=1e-6
+        )
         assert np.ptp(np.transpose(positions)[2]) < 1e-12
         assert np.ptp(np.transpose(positions)[1]) > radius
 
@@ -210,11 +287,15 @@ def test_a_shifted_course_shifts_the_path(shot, move):
 @few
 @given(shots, st.floats(-pi, pi))
 def test_a_turned_course_turns_the_path(shot, turn):
-    matrix = np.array([[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
-    assume(np.hypot(*shot[:2]) > 1e-3)  # what is struck straight up has its sides told from the x axis
+    matrix = np.array(
+        [[np.cos(turn), -np.sin(turn), 0], [np.sin(turn), np.cos(turn), 0], [0, 0, 1]]
+    )
+    # what is struck straight up has its sides told from the x axis
+    assume(np.hypot(*shot[:2]) > 1e-3)
     here = simulate(hilly(), Shot(shot[:3], shot[3:]), effects=EVERYTHING, rate=20.0)
-    there = simulate(hilly(turn=turn), Shot(matrix @ shot[:3], matrix @ shot[3:]), effects=EVERYTHING,
-                     rate=20.0)
+    there = simulate(
+        hilly(turn=turn), Shot(matrix @ shot[:3], matrix @ shot[3:]), effects=EVERYTHING, rate=20.0
+    )
     assert_same_path(here, there, lambda places: places @ matrix.T)
 
 
@@ -223,7 +304,9 @@ def assert_same_path(here, there, moved):
     flying = int(20 * here.result.flight_time)
     assert there.result.status == here.result.status
     np.testing.assert_allclose(there.positions[:flying], moved(here.positions[:flying]), atol=1e-9)
-    np.testing.assert_allclose(there.result.position, moved(np.array(here.result.position)), atol=1e-6)
+    np.testing.assert_allclose(
+        there.result.position, moved(np.array(here.result.position)), atol=1e-6
+    )
     assert there.result.total == pytest.approx(here.result.total, abs=1e-6)
     assert there.result.side == pytest.approx(here.result.side, abs=1e-6)
 
@@ -234,9 +317,17 @@ def test_uniform_wind_is_a_change_of_frame(accuracy):
     wind = np.array((6.0, -9.0, 1.5))
     for velocity, spin in zip(*random_shots(5, seed=4)):
         velocity[2] = 40.0
-        windy = simulate(course, Shot(velocity, spin), wind=wind, effects=(*EVERYTHING, 'wind'),
-                         accuracy=accuracy, rate=50.0)
-        calm = simulate(course, Shot(velocity - wind, spin), effects=EVERYTHING, accuracy=accuracy, rate=50.0)
+        windy = simulate(
+            course,
+            Shot(velocity, spin),
+            wind=wind,
+            effects=(*EVERYTHING, 'wind'),
+            accuracy=accuracy,
+            rate=50.0,
+        )
+        calm = simulate(
+            course, Shot(velocity - wind, spin), effects=EVERYTHING, accuracy=accuracy, rate=50.0
+        )
         flying = int(50 * min(windy.result.flight_time, calm.result.flight_time))
         assert flying > 100
         carried = calm.positions[:flying] + np.outer(calm.times[:flying], wind)
@@ -261,7 +352,10 @@ def test_wind_grows_with_height_over_the_ground_as_its_profile_says(name, told):
 
 def shares_of_wind(name):
     """Heights over the ground, on the plain and over a hill of 30 m, and the wind there over that at 10 m."""
-    ground = (Plane(material=TURF), Patch((100.0, 0.0, 30.0), length=20.0, width=20.0, material=TURF))
+    ground = (
+        Plane(material=TURF),
+        Patch((100.0, 0.0, 30.0), length=20.0, width=20.0, material=TURF),
+    )
     wind = np.array((3.0, -4.0, 0.5))
     model = World(Course(ground, wind_profile=PROFILES[name][0]), wind=wind)._model
     heights, shares = (0.1, 1.0, 10.0, 50.0), []
@@ -295,10 +389,10 @@ def test_a_head_wind_shortens_and_a_side_wind_moves_a_drive():
 
 
 def test_the_apex_is_that_before_the_first_contact_not_of_a_later_hop():
-    ramp = Patch((2.0, 0.0, 0.0), (-0.5 ** 0.5, 0.0, 0.5 ** 0.5), 0.0, 2.0, 2.0, HARD)
+    ramp = Patch((2.0, 0.0, 0.0), (-(0.5**0.5), 0.0, 0.5**0.5), 0.0, 2.0, 2.0, HARD)
     course = level(HARD, effects=GRAVITY)._replace(ground=(Plane(material=HARD), ramp))
     play = simulate(course, Shot((10.0, 0.0, 1.0)))
     assert play.result.apex == pytest.approx(0.5 / oracles.G, rel=1e-6)
     assert play.positions[:, 2].max() - play.positions[0, 2] > 5 * play.result.apex
-    told, = simulate_many(course, [(10.0, 0.0, 1.0)], np.zeros((1, 3)))
+    (told,) = simulate_many(course, [(10.0, 0.0, 1.0)], np.zeros((1, 3)))
     assert told['apex'] == play.result.apex

@@ -1,24 +1,40 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Hard cases: each YAML file in hard_cases/ holds a course, and plays on it with their expected answers.
 
-A case puts the ball down (`place`, with `velocity` and `spin`), or strikes it as well (`strike`, `spin`),
-and says how it `ends` once it stops, or at `until`; `first` is the first collision,
-`result` what is told of the shot; null is any number.
-`level`: the greatest vertical speed on the way [m/s]. Whatever a case says, its ball stays finite, out of the
-ground, on the ground when it rests, and gains no energy in still air.
+A case puts the ball down (`place`, with `velocity` and `spin`), or strikes it as well (`strike`,
+`spin`), and says how it `ends` once it stops, or at `until`; `first` is the first collision,
+`result` what is told of the shot; null is any number. `level`: the greatest vertical speed on the
+way [m/s]. Whatever a case says, its ball stays finite, out of the ground, on the ground when it
+rests, and gains no energy in still air.
 """
-from pathlib import Path
 
-import numpy as np
-import pytest
-import yaml
+from pathlib import Path
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics import Collision, Phase, Result, World
+import numpy as np
+import pytest
 from scene import depth, energy, touches
+import yaml
 
-CASES = [(file, case) for file in sorted(Path(__file__).with_name('hard_cases').glob('*.yaml'))
-         for case in yaml.safe_load(file.read_text())['cases']]
+CASES = [
+    (file, case)
+    for file in sorted(Path(__file__).with_name('hard_cases').glob('*.yaml'))
+    for case in yaml.safe_load(file.read_text())['cases']
+]
 TICK = 0.01  # s
 PATIENCE = 400.0  # s of simulated time after which a ball should have stopped
 LIFT = 2e-5  # J/kg: what putting a ball exactly on its surface, 1e-6 m higher at most, may give it
@@ -32,13 +48,18 @@ def course_of(tmp_path_factory):
     def read(file):
         if file not in known:
             path = tmp_path_factory.mktemp('course') / file.name
-            path.write_text(yaml.safe_dump({'format': 1, **yaml.safe_load(file.read_text())['course']}))
+            path.write_text(
+                yaml.safe_dump({'format': 1, **yaml.safe_load(file.read_text())['course']})
+            )
             known[file] = load_course(path)
         return known[file]
+
     return read
 
 
-@pytest.mark.parametrize('file, case', CASES, ids=[f'{file.stem}: {case["name"]}' for file, case in CASES])
+@pytest.mark.parametrize(
+    'file, case', CASES, ids=[f'{file.stem}: {case["name"]}' for file, case in CASES]
+)
 def test_a_hard_case_ends_as_expected(file, case, course_of):
     world = start(course_of(file), case)
     events = play(world, case)
@@ -46,7 +67,7 @@ def test_a_hard_case_ends_as_expected(file, case, course_of):
         first = next(event for event in events if isinstance(event, Collision))
         matches(case['first'], first.position, first.velocity_before)
     if 'result' in case:
-        result, = (event for event in events if isinstance(event, Result))
+        (result,) = (event for event in events if isinstance(event, Result))
         assert result.status == case['result']['status']
         matches(case['result'], result.position, ())
     ends = case['ends']
@@ -61,10 +82,14 @@ def test_a_hard_case_ends_as_expected(file, case, course_of):
 def start(course, case):
     """World of a case, its ball under way."""
     course = course._replace(effects=case.get('effects', ('gravity',)))
-    world = World(course, accuracy=case.get('accuracy', 'standard'), wind=case.get('wind', (0, 0, 0)))
+    world = World(
+        course, accuracy=case.get('accuracy', 'standard'), wind=case.get('wind', (0, 0, 0))
+    )
     if 'place' in case:
         calm = 'strike' in case
-        world.place('ball', case['place'], *(() if calm else (case.get('velocity'), case.get('spin'))))
+        world.place(
+            'ball', case['place'], *(() if calm else (case.get('velocity'), case.get('spin')))
+        )
     if 'strike' in case:
         world.strike('ball', case['strike'], case.get('spin', (0, 0, 0)))
     return world
@@ -95,4 +120,7 @@ def matches(expected, position, velocity):
     for name, found in (('position', position), ('velocity', velocity)):
         for wanted, number in zip(expected.get(name, ()), found):
             if wanted is not None:
-                assert number == pytest.approx(wanted, rel=0, abs=expected['within']), (name, found)
+                assert number == pytest.approx(wanted, rel=0, abs=expected['within']), (
+                    name,
+                    found,
+                )

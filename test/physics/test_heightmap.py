@@ -1,13 +1,38 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Curved ground from heights on a grid."""
+
 from math import pi, sqrt
 import os
 
 from driving_range import EVERYTHING, GRAVITY, HARD, random_shots
 from golf_sim_ros.course import load_course
 from golf_sim_ros.course.schema import CourseError
-from golf_sim_ros.physics import (ACCURACY, Course, Heightmap, METHODS, Material, Phase, Plane, Preset,
-                                  Restitution, World, simulate_many)
+from golf_sim_ros.physics import (
+    ACCURACY,
+    Course,
+    Heightmap,
+    Material,
+    METHODS,
+    Phase,
+    Plane,
+    Preset,
+    Restitution,
+    simulate_many,
+    World,
+)
 from golf_sim_ros.physics.geometry import heightmap, surface_protocol
 from golf_sim_ros.physics.geometry.bicubic import nodes
 from golf_sim_ros.physics.jit import entry
@@ -72,8 +97,10 @@ def test_a_tilted_plane_of_heights_is_that_plane():
     map_ = surface(lambda x, y: 0.03 * x - 0.02 * y, HARD, 4.0, (-40, -40), (40, 40))
     plane = Plane(normal=(-0.03, 0.02, 1.0), material=HARD)
     plane = plane._replace(normal=tuple(np.array(plane.normal) / np.linalg.norm(plane.normal)))
-    ends = [simulate_many(Course((ground,)), velocities, spins, effects=GRAVITY, accuracy='reference')
-            for ground in (plane, map_)]
+    ends = [
+        simulate_many(Course((ground,)), velocities, spins, effects=GRAVITY, accuracy='reference')
+        for ground in (plane, map_)
+    ]
     for name in ('carry', 'carry_side', 'total', 'side'):
         np.testing.assert_allclose(ends[1][name], ends[0][name], atol=1e-6, err_msg=name)
 
@@ -99,16 +126,23 @@ def test_nearest_is_what_brute_force_finds():
         y = -4 + 0.5 * (row + np.linspace(0, 1, 41))
         point = np.array((x[0], y[0], 0.5)) + rng.uniform((-0.5, -0.5, 0.8), (1, 1, 2))
         z = np.array([[top(kind, a, b)[0] for a in x] for b in y[:1]])
-        squares = ((x - point[0])[np.newaxis] ** 2 + (y - point[1])[:, np.newaxis] ** 2 + (z - point[2]) ** 2)
+        squares = (
+            (x - point[0])[np.newaxis] ** 2
+            + (y - point[1])[:, np.newaxis] ** 2
+            + (z - point[2]) ** 2
+        )
         distance, normal = nearest(kind, row * grid['nx'] + column, tuple(point))
         brute = sqrt(squares.min())
-        assert brute - 0.01 <= distance <= brute + 1e-3  # from afar a second hollow may be missed by a hair
+        # from afar a second hollow may be missed by a hair
+        assert brute - 0.01 <= distance <= brute + 1e-3
         assert np.linalg.norm(normal) == pytest.approx(1, abs=1e-12)
 
 
 def test_a_ball_in_a_bowl_swings_at_5_7_of_a_sliding_one():
     curve = 2.0  # m: radius of the bowl
-    bowl = surface(lambda x, y: curve - np.sqrt(curve * curve - x * x - y * y), IDEAL, 0.1, (-1, -1), (1, 1))
+    bowl = surface(
+        lambda x, y: curve - np.sqrt(curve * curve - x * x - y * y), IDEAL, 0.1, (-1, -1), (1, 1)
+    )
     world = World(Course((bowl,)), effects=GRAVITY)
     world.place('ball', (0.02, 0, bowl.heights[10][10] + 0.0225), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     times, places = np.arange(1, 700) * 0.01, []
@@ -131,7 +165,9 @@ def test_a_rolling_ball_has_the_spin_of_rolling_at_every_instant_and_not_only_wh
         ball = world['ball']
         if ball.phase == Phase.ROLL:
             speed = sqrt(np.dot(ball.velocity, ball.velocity))
-            assert RADIUS * sqrt(np.dot(ball.spin, ball.spin)) == pytest.approx(speed, rel=2e-3, abs=2e-3)
+            assert RADIUS * sqrt(np.dot(ball.spin, ball.spin)) == pytest.approx(
+                speed, rel=2e-3, abs=2e-3
+            )
             rolled += 1
     assert rolled > 50
 
@@ -139,7 +175,9 @@ def test_a_rolling_ball_has_the_spin_of_rolling_at_every_instant_and_not_only_wh
 @pytest.mark.parametrize('share, flies', [(0.98, False), (1.02, True)])
 def test_a_ball_leaves_a_crest_where_gravity_no_longer_bends_its_path(share, flies):
     curve = 2.0
-    crest = surface(lambda x, y: np.sqrt(curve * curve - x * x) + 0 * y, IDEAL, 0.05, (-1, -1), (1, 1))
+    crest = surface(
+        lambda x, y: np.sqrt(curve * curve - x * x) + 0 * y, IDEAL, 0.05, (-1, -1), (1, 1)
+    )
     speed = share * sqrt(G * (curve + RADIUS))
     world = World(Course((crest,)), effects=GRAVITY)
     world.place('ball', (0, 0), (speed, 0, 0), (0, speed / RADIUS, 0))
@@ -147,8 +185,13 @@ def test_a_ball_leaves_a_crest_where_gravity_no_longer_bends_its_path(share, fli
     assert (world['ball'].phase == Phase.FLIGHT) == flies
 
 
-HILL = surface(lambda x, y: 0.15 * np.sin(x * pi / 20) ** 2 * np.cos(y * pi / 10) ** 2, GREEN, 0.5,
-               (0, -5), (20, 5))
+HILL = surface(
+    lambda x, y: 0.15 * np.sin(x * pi / 20) ** 2 * np.cos(y * pi / 10) ** 2,
+    GREEN,
+    0.5,
+    (0, -5),
+    (20, 5),
+)
 AROUND = Plane(material=GREEN, cut=(((0, -5), (20, -5), (20, 5), (0, 5)),))
 
 
@@ -196,7 +239,9 @@ def test_a_ball_holds_where_5_7_of_the_slope_is_no_more_than_rolling_resistance(
 def test_rest_on_a_wavy_green_is_the_same_to_a_millimetre_at_any_accuracy():
     green = Course((surface(lambda x, y: 0.3 * np.sin(x / 6) * np.cos(y / 7) + 0.02 * x),))
     for velocity in [(3.2, 1.0, 0), (-1.5, 0.4, 0), (0.5, -2.5, 1)]:
-        ends = [rests_at(green, (0, 0), velocity, accuracy) for accuracy in ('standard', 'reference')]
+        ends = [
+            rests_at(green, (0, 0), velocity, accuracy) for accuracy in ('standard', 'reference')
+        ]
         np.testing.assert_allclose(ends[0], ends[1], atol=1e-3)
 
 
@@ -216,9 +261,12 @@ def test_nothing_tunnels_through_a_steep_map():
         world = World(course, effects=GRAVITY, accuracy='sketch')
         way = rng.normal(size=3) * (1, 1, rng.choice([1, 0.02]))
         axis = rng.normal(size=3)
-        world.place('ball', (x, y, top(kind, x, y)[0] + 0.1 + rng.uniform(0, 1.9)),
-                    rng.uniform(0, 120) * way / np.linalg.norm(way),
-                    rng.uniform(0, 2000) * axis / np.linalg.norm(axis))
+        world.place(
+            'ball',
+            (x, y, top(kind, x, y)[0] + 0.1 + rng.uniform(0, 1.9)),
+            rng.uniform(0, 120) * way / np.linalg.norm(way),
+            rng.uniform(0, 2000) * axis / np.linalg.norm(axis),
+        )
         for _ in range(30):
             world.advance(0.02)
             bx, by, bz = world['ball'].position
@@ -226,12 +274,20 @@ def test_nothing_tunnels_through_a_steep_map():
                 assert bz > top(kind, bx, by)[0] + 0.5 * RADIUS, (world.time, world['ball'])
 
 
-@pytest.mark.parametrize('start, velocity, spin', [
-    ((-1.0088, 0.0998, 0.30765), (98.193, -4.342, -52.949), (1310.3, 405.7, -761.4)),
-    ((-0.9221, -0.4896, 0.28377), (39.679, -4.957, -22.72), (-304.8, 98.0, 51.8))])
-def test_friction_under_a_press_of_thousands_of_weights_does_not_hold_up_time(start, velocity, spin):
+@pytest.mark.parametrize(
+    'start, velocity, spin',
+    [
+        ((-1.0088, 0.0998, 0.30765), (98.193, -4.342, -52.949), (1310.3, 405.7, -761.4)),
+        ((-0.9221, -0.4896, 0.28377), (39.679, -4.957, -22.72), (-304.8, 98.0, 51.8)),
+    ],
+)
+def test_friction_under_a_press_of_thousands_of_weights_does_not_hold_up_time(
+    start, velocity, spin
+):
     """Ground that turns fast drives slip and spin as hard as friction takes them: no step shrinks to none."""
-    world = World(Course((step(), Plane((0, 0, -3), material=HARD))), effects=GRAVITY, accuracy='reference')
+    world = World(
+        Course((step(), Plane((0, 0, -3), material=HARD))), effects=GRAVITY, accuracy='reference'
+    )
     world.place('ball', start, velocity, spin)
     before = energy(world['ball'])
     for _ in range(3):
@@ -251,19 +307,29 @@ def test_a_ball_stays_outside_the_walls_of_a_map():
 
 @pytest.mark.parametrize('speed', [2.7, 2.75, 3.0])
 def test_a_ball_that_falls_past_a_wall_meets_no_back_of_the_ground_beyond_it(speed):
-    heights = [[0.1, 0.26, 0.39, 0.28, 0.25], [0, 0.33, 0.06, 0.04, 0], [0.39, 0.4, 0.25, 0.32, 0.39],
-               [0.31, 0, 0.39, 0.15, 0.33], [0.25, 0.1, 0, 0.19, 0.05]]
-    world = World(Course((Plane((0, 0, -1), material=GREEN), Heightmap(heights, (-1, -1), 0.5, GREEN)),
-                         tee=(9, 0)), effects=GRAVITY)
+    heights = [
+        [0.1, 0.26, 0.39, 0.28, 0.25],
+        [0, 0.33, 0.06, 0.04, 0],
+        [0.39, 0.4, 0.25, 0.32, 0.39],
+        [0.31, 0, 0.39, 0.15, 0.33],
+        [0.25, 0.1, 0, 0.19, 0.05],
+    ]
+    world = World(
+        Course(
+            (Plane((0, 0, -1), material=GREEN), Heightmap(heights, (-1, -1), 0.5, GREEN)),
+            tee=(9, 0),
+        ),
+        effects=GRAVITY,
+    )
     world.place('ball', (0.9, 0, 1.0), (0, -speed, 0))
     assert world.advance(0.6) == []
     assert world['ball'].position == pytest.approx((0.9, -0.6 * speed, 1.0 - 0.18 * G), abs=1e-9)
 
 
-COURSE = '''format: 1
+COURSE = """format: 1
 ground:
   - {shape: heightmap, heights: green.npy, origin: [-1, -1], spacing: 0.5, material: green}
-'''
+"""
 
 
 def saved(folder, heights):
@@ -280,25 +346,39 @@ def test_a_course_reads_its_heights_and_its_digest_covers_them(tmp_path):
     assert load_course(saved(tmp_path, heights + 1e-9)).digest != course.digest
 
 
-@pytest.mark.parametrize('heights, said', [
-    (np.zeros((1, 5)), '2 x 2 or more; its shape is (1, 5)'),
-    (np.zeros(5), '2 x 2 or more; its shape is (5,)'),
-    (np.array([[0, 1], [np.nan, 0]]), 'height [1, 0] is nan'),
-    (np.array([[0, 1], [1e9, 0]]), 'height [1, 0] is 1000000000.0'),
-    (np.array([['a', 'b'], ['c', 'd']]), 'must hold numbers'),
-    (np.array([[{}, 1], [1, 1]], object), 'no .npy file that can be read'),
-])
+@pytest.mark.parametrize(
+    'heights, said',
+    [
+        (np.zeros((1, 5)), '2 x 2 or more; its shape is (1, 5)'),
+        (np.zeros(5), '2 x 2 or more; its shape is (5,)'),
+        (np.array([[0, 1], [np.nan, 0]]), 'height [1, 0] is nan'),
+        (np.array([[0, 1], [1e9, 0]]), 'height [1, 0] is 1000000000.0'),
+        (np.array([['a', 'b'], ['c', 'd']]), 'must hold numbers'),
+        (np.array([[{}, 1], [1, 1]], object), 'no .npy file that can be read'),
+    ],
+)
 def test_heights_that_are_none_are_refused_in_one_line(tmp_path, heights, said):
     with pytest.raises(CourseError) as error:
         load_course(saved(tmp_path, heights))
-    assert said in str(error.value) and 'green.npy' in str(error.value) and '\n' not in str(error.value)
+    assert (
+        said in str(error.value)
+        and 'green.npy' in str(error.value)
+        and '\n' not in str(error.value)
+    )
 
 
-@pytest.mark.parametrize('content, said', [
-    (b'heights', 'is no .npy file'), (b'\x93NUMPY\x01\x00', 'no .npy file that can be read'),
-    (b"\x93NUMPY\x01\x00F\x00{'descr': '<f8', 'fortran_order': False, 'shape': (99999, 99999), }   \n",
-     'it tells of (99999, 99999) numbers, and ends'),
-    (None, 'cannot be read')])
+@pytest.mark.parametrize(
+    'content, said',
+    [
+        (b'heights', 'is no .npy file'),
+        (b'\x93NUMPY\x01\x00', 'no .npy file that can be read'),
+        (
+            b"\x93NUMPY\x01\x00F\x00{'descr': '<f8', 'fortran_order': False, 'shape': (99999, 99999), }   \n",
+            'it tells of (99999, 99999) numbers, and ends',
+        ),
+        (None, 'cannot be read'),
+    ],
+)
 def test_a_broken_file_of_heights_is_refused_in_one_line(tmp_path, content, said):
     path = saved(tmp_path, np.zeros((2, 2)))
     (tmp_path / 'green.npy').unlink()

@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Integrators: their order, what a step costs, and how they compare with scipy's."""
+
 from typing import NamedTuple
 
-from driving_range import EVERYTHING, TURF, first_touches, launched, level, random_shots
-from golf_sim_ros.physics import ACCURACY, METHODS, Preset, World, simulate_many
+from driving_range import EVERYTHING, first_touches, launched, level, random_shots, TURF
+from golf_sim_ros.physics import ACCURACY, METHODS, Preset, simulate_many, World
 from golf_sim_ros.physics.integrators import dormand_prince, runge_kutta
 from golf_sim_ros.physics.integrators.dormand_prince import DormandPrince
 from golf_sim_ros.physics.properties.air import density, viscosity
@@ -21,15 +35,25 @@ TIME = 3.2  # s
 
 def flown(velocity, spin, time):
     """State after `time`, or at the first touch of level ground, by scipy's DOP853 at rtol 1e-12."""
+
     def touch(_, y):
         return y[2] - oracles.RADIUS
+
     touch.terminal, touch.direction = True, -1
 
     start = (0, 0, oracles.RADIUS, *velocity, *spin)
     air = level(TURF).air
     rates = oracles.golf_ball_rates(density(air), viscosity(air))
-    told = solve_ivp(rates, (0, time), start, method='DOP853', rtol=3e-14, atol=1e-14,
-                     max_step=0.05, events=touch)
+    told = solve_ivp(
+        rates,
+        (0, time),
+        start,
+        method='DOP853',
+        rtol=3e-14,
+        atol=1e-14,
+        max_step=0.05,
+        events=touch,
+    )
     return told.y[:, -1], told.t[-1]
 
 
@@ -43,7 +67,8 @@ def with_fixed_dormand_prince():
     """Register it, as a package of its own would."""
     runge_kutta.tableau.register(FixedDormandPrince)(dormand_prince._table)
     runge_kutta.first_step.register(FixedDormandPrince)(
-        lambda method, speed, hop, most: (method.length, False))
+        lambda method, speed, hop, most: (method.length, False)
+    )
     return FixedDormandPrince
 
 
@@ -90,29 +115,43 @@ def typical_error(places, truth):
     return np.median(np.linalg.norm(np.subtract(places, truth), axis=1))
 
 
-@pytest.mark.parametrize('name, order, stages, steps', [
-    ('euler', 1, 1, (50, 100, 200)),
-    ('rk4', 4, 5, (16, 32, 64)),
-    # A narrow range: from 6 to 24 steps the drag crisis is not resolved (slope 6 to 7), beyond 48 the
-    # error hardly falls (3e-11 m at 96). Between neighbours in it the order is 6.3 and 3.5.
-    ('fixed_dormand_prince', 5, 7, (24, 36, 48)),
-])
+@pytest.mark.parametrize(
+    'name, order, stages, steps',
+    [
+        ('euler', 1, 1, (50, 100, 200)),
+        ('rk4', 4, 5, (16, 32, 64)),
+        # A narrow range: from 6 to 24 steps the drag crisis is not resolved (slope 6 to 7), beyond 48
+        # the error hardly falls (3e-11 m at 96). Between neighbours in it the order is 6.3 and 3.5.
+        ('fixed_dormand_prince', 5, 7, (24, 36, 48)),
+    ],
+)
 def test_the_error_of_a_flight_falls_with_the_step_to_the_order(name, order, stages, steps, truth):
     told = run(flights_by, name, [TIME / n for n in steps], high_shots())
     wrong = [typical_error(places, truth) for _, places in told]
     slope = -np.polyfit(np.log(steps), np.log(wrong), 1)[0]
     # The leading terms of Dormand-Prince partly cancel here; the next test knows its order to 0.1.
     assert slope == pytest.approx(order, abs=0.4 if order == 5 else 0.1)
-    for (costs, _), n in zip(told, steps):  # a step begins as the one before ended, or calls that anew
+    # a step begins as the one before ended, or calls that anew
+    for (costs, _), n in zip(told, steps):
         assert all((stages - 1) * n <= cost <= stages * (n + 1) for cost in costs)
 
 
-@pytest.mark.parametrize('name, order, steps', [
-    ('euler', 1, (100, 200, 400)), ('rk4', 4, (8, 16, 32)), ('fixed_dormand_prince', 5, (8, 16, 32))])
-def test_halving_the_step_divides_the_error_by_two_to_the_order_where_the_path_is_known(name, order, steps):
+@pytest.mark.parametrize(
+    'name, order, steps',
+    [
+        ('euler', 1, (100, 200, 400)),
+        ('rk4', 4, (8, 16, 32)),
+        ('fixed_dormand_prince', 5, (8, 16, 32)),
+    ],
+)
+def test_halving_the_step_divides_the_error_by_two_to_the_order_where_the_path_is_known(
+    name, order, steps
+):
     velocity = (60.0, 10.0, 40.0)
     places = run(ways_against_linear_drag, name, [TIME / n for n in steps], velocity)
-    wrong = np.linalg.norm(np.subtract(places, oracles.linear_drag_path(velocity, 0.18, TIME)), axis=1)
+    wrong = np.linalg.norm(
+        np.subtract(places, oracles.linear_drag_path(velocity, 0.18, TIME)), axis=1
+    )
     np.testing.assert_allclose(np.log2(wrong[:-1] / wrong[1:]), order, atol=0.1)
 
 
@@ -120,7 +159,9 @@ def ways_against_linear_drag(name, lengths, velocity):
     """Ways until TIME by the integrator called `name`, with steps of each of `lengths`."""
     kind, ways = record(name), []
     for length in lengths:
-        world = World(level(TURF), effects=('gravity', 'linear_drag'), accuracy=Preset(kind(length), FINE))
+        world = World(
+            level(TURF), effects=('gravity', 'linear_drag'), accuracy=Preset(kind(length), FINE)
+        )
         start = np.array(world['ball'].position)
         world.strike('ball', velocity)
         world.advance(TIME)
@@ -129,7 +170,9 @@ def ways_against_linear_drag(name, lengths, velocity):
 
 
 def test_work_buys_accuracy_at_order_five(truth):
-    told = [flights(DormandPrince(tolerance), high_shots()) for tolerance in (1e-3, 1e-5, 1e-7, 1e-9)]
+    told = [
+        flights(DormandPrince(tolerance), high_shots()) for tolerance in (1e-3, 1e-5, 1e-7, 1e-9)
+    ]
     wrong = [typical_error(places, truth) for _, places in told]
     work = [np.mean(costs) for costs, _ in told]
     slope = np.log(wrong[0] / wrong[-1]) / np.log(work[-1] / work[0])
@@ -141,7 +184,7 @@ def test_work_buys_accuracy_at_order_five(truth):
 def test_every_integrator_comes_to_the_same_flight(name, truth):
     dial = {'euler': 4e-3, 'rk4': 0.02, 'dormand_prince': 1e-9}.get(name, 1e-3)
     limit = 1.0 if name == 'euler' else 1e-6
-    (_, places), = run(flights_by, name, [dial], high_shots()[:3])
+    ((_, places),) = run(flights_by, name, [dial], high_shots()[:3])
     assert np.linalg.norm(places - truth[:3], axis=1).max() < limit
     assert METHODS[name].dial in METHODS[name].record._fields and METHODS[name].record.__doc__
 
@@ -158,8 +201,13 @@ def test_a_ten_times_tighter_tolerance_lowers_the_true_error(hundred):
     velocities, spins, truth = hundred
     wrong = []
     for tolerance in 10.0 ** -np.arange(1, 10):
-        shots = simulate_many(level(TURF), velocities, spins, effects=EVERYTHING,
-                              accuracy=Preset(DormandPrince(tolerance), FINE))
+        shots = simulate_many(
+            level(TURF),
+            velocities,
+            spins,
+            effects=EVERYTHING,
+            accuracy=Preset(DormandPrince(tolerance), FINE),
+        )
         wrong.append(typical_error(first_touches(shots, velocities), truth[:, :2]))
     assert (np.diff(wrong) < 0).all()
 

@@ -1,10 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Meshes: triangles are the ground they show; no side, corner or crack between them is felt or passed."""
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Meshes: triangles are the ground they show.
+
+No side, corner or crack between them is felt or passed.
+"""
+
 from math import cos, hypot, sin
 import os
 
 from driving_range import GRAVITY, HARD
-from golf_sim_ros.physics import Course, Material, Mesh, Patch, Phase, Plane, World, ground_height
+from golf_sim_ros.physics import Course, ground_height, Material, Mesh, Patch, Phase, Plane, World
 from golf_sim_ros.physics.geometry import surface_protocol
 from golf_sim_ros.physics.geometry.mesh import meshes
 from golf_sim_ros.physics.geometry.surfaces import look_down
@@ -29,7 +46,7 @@ def floor(seed, inner=100, up=(0.0, 0.0, 1.0)):
         a, b, c = faces.pop(hit)
         faces += [(a, b, len(places)), (b, c, len(places)), (len(places), c, a)]
         places.append(tuple(place))
-    faces = np.array([face[::rng.choice((-1, 1))] for face in faces])
+    faces = np.array([face[:: rng.choice((-1, 1))] for face in faces])
     across = np.cross(up, (1.0, 0.0, 0.0)) / np.linalg.norm(np.cross(up, (1.0, 0.0, 0.0)))
     return np.array(places) @ (np.cross(across, up), across), faces
 
@@ -37,7 +54,10 @@ def floor(seed, inner=100, up=(0.0, 0.0, 1.0)):
 def within(corners, place):
     """Whether a triangle in plan holds `place`."""
     a, b, c = np.array(corners)
-    turns = [(q - p)[0] * (place - p)[1] - (q - p)[1] * (place - p)[0] for p, q in ((a, b), (b, c), (c, a))]
+    turns = [
+        (q - p)[0] * (place - p)[1] - (q - p)[1] * (place - p)[0]
+        for p, q in ((a, b), (b, c), (c, a))
+    ]
     return min(turns) >= 0 or max(turns) <= 0
 
 
@@ -134,17 +154,26 @@ def test_where_meshes_are_equally_high_the_later_counts():
 
 # Ridges, creases, corners
 
+
 def roof(slope, half=3.0):
     """Two rectangles in four triangles that meet over the y axis; `slope` is their rise [rad]."""
     z = half * np.tan(slope)
-    return ([(-half, -half, -z), (0, -half, 0), (half, -half, -z),
-             (half, half, -z), (0, half, 0), (-half, half, -z)],
-            [(0, 1, 4), (0, 4, 5), (1, 2, 3), (1, 3, 4)])
+    return (
+        [
+            (-half, -half, -z),
+            (0, -half, 0),
+            (half, -half, -z),
+            (half, half, -z),
+            (0, half, 0),
+            (-half, half, -z),
+        ],
+        [(0, 1, 4), (0, 4, 5), (1, 2, 3), (1, 3, 4)],
+    )
 
 
 def depth(course, point):
     """How deep [m] a ball at `point` lies in a mesh; by other means than the engine's."""
-    shape, = course.ground
+    (shape,) = course.ground
     return RADIUS - min(distance(shape.vertices[face], point) for face in shape.faces)
 
 
@@ -156,8 +185,10 @@ def distance(corners, point):
     if u >= 0 and v >= 0 and u + v <= 1:
         return np.linalg.norm(point - a - plane @ (u, v))
     sides = [(p, q - p) for p, q in zip(corners, np.roll(corners, -1, 0))]
-    return min(np.linalg.norm(point - p - np.clip((point - p) @ side / (side @ side), 0, 1) * side)
-               for p, side in sides)
+    return min(
+        np.linalg.norm(point - p - np.clip((point - p) @ side / (side @ side), 0, 1) * side)
+        for p, side in sides
+    )
 
 
 @pytest.mark.parametrize('slope', [1e-6, 1e-3, 0.05, 0.6])
@@ -170,22 +201,29 @@ def test_a_ball_passes_a_fold_and_stays_on_it_or_over_it(slope, speed, turned):
     up = np.array((-turned * sin(slope), 0, cos(slope)))
     velocity = speed * uphill
     world = World(folded, effects=GRAVITY)
-    world.place('ball', -0.02 * uphill + RADIUS * up + (0, 0.1234, 0), velocity, rolling(velocity, up))
+    world.place(
+        'ball', -0.02 * uphill + RADIUS * up + (0, 0.1234, 0), velocity, rolling(velocity, up)
+    )
     energy = np.inf
     for _ in range(40):
         world.advance(0.005)
         ball = world['ball']
         assert depth(folded, ball.position) < 2e-6
-        now = (9.80665 * ball.position[2] + 0.5 * np.dot(ball.velocity, ball.velocity)
-               + 0.2 * RADIUS ** 2 * np.dot(ball.spin, ball.spin))
+        now = (
+            9.80665 * ball.position[2]
+            + 0.5 * np.dot(ball.velocity, ball.velocity)
+            + 0.2 * RADIUS**2 * np.dot(ball.spin, ball.spin)
+        )
         assert now <= energy + 1e-5
         energy = now
     assert ball.position[0] > 0.01 or slope == 0.6 and (turned < 0 or speed < 2)
     assert ball.position[1] == pytest.approx(0.1234, abs=1e-9)
 
 
-PYRAMID = ([(0, 0, 0.5), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)],
-           [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)])
+PYRAMID = (
+    [(0, 0, 0.5), (1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0)],
+    [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 1)],
+)
 
 
 def test_a_ball_dropped_on_a_vertex_comes_straight_back():
@@ -211,6 +249,7 @@ def test_a_ball_comes_to_rest_deep_in_a_bowl(velocity):
 
 
 # Nothing is passed
+
 
 @pytest.mark.parametrize('crumpled', [0.0, 0.3])
 def test_no_shot_passes_a_single_sheet(crumpled):
@@ -239,8 +278,13 @@ def test_a_one_sided_mesh_is_passed_from_behind_only():
     vertices, faces = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)], [(0, 1, 2)]
     for from_above, stopped in ((True, True), (False, False)):
         sign = 1 if from_above else -1
-        states, _ = played(course(vertices, faces, one_sided=True), (0, 0, 0.2 * sign), (0, 0, -4 * sign),
-                           None, ticks=(0.1,))
+        states, _ = played(
+            course(vertices, faces, one_sided=True),
+            (0, 0, 0.2 * sign),
+            (0, 0, -4 * sign),
+            None,
+            ticks=(0.1,),
+        )
         assert (states[-1, 2] * sign > 0) == stopped
 
 
@@ -252,6 +296,7 @@ def test_a_mesh_of_two_sides_is_hit_from_below():
 
 # The record for kernels
 
+
 @entry
 def next_part(kind, part, low, high):
     """Next part of a kind; Python can call it."""
@@ -261,8 +306,10 @@ def next_part(kind, part, low, high):
 @pytest.mark.parametrize('count', [1, 2, 4, 5, 9, 300])
 def test_the_hierarchy_finds_what_brute_force_finds(count):
     rng = np.random.default_rng(count)
-    shapes = [Mesh(rng.uniform(-1, 1, (3 * n, 3)) + n, np.arange(3 * n).reshape(-1, 3))
-              for n in (count, 1, count)]
+    shapes = [
+        Mesh(rng.uniform(-1, 1, (3 * n, 3)) + n, np.arange(3 * n).reshape(-1, 3))
+        for n in (count, 1, count)
+    ]
     kind = meshes(shapes, {Material(): 0})
     corners = kind.triangles['corners']
     for _ in range(40):
@@ -279,11 +326,14 @@ def test_the_hierarchy_finds_what_brute_force_finds(count):
         assert next_part(kind, start, low, high) == (later[0] if later else len(corners))
 
 
-@pytest.mark.parametrize('mesh, said', [
-    (Mesh(np.zeros((3, 3)), np.array([[0, 1, 3]])), 'out of 0 to 2'),
-    (Mesh(np.eye(3), np.array([[0, 1, 2], [0, 1, 1]])), 'face 1'),
-    (Mesh(np.full((3, 3), np.nan), np.array([[0, 1, 2]])), 'face 0'),
-])
+@pytest.mark.parametrize(
+    'mesh, said',
+    [
+        (Mesh(np.zeros((3, 3)), np.array([[0, 1, 3]])), 'out of 0 to 2'),
+        (Mesh(np.eye(3), np.array([[0, 1, 2], [0, 1, 1]])), 'face 1'),
+        (Mesh(np.full((3, 3), np.nan), np.array([[0, 1, 2]])), 'face 0'),
+    ],
+)
 def test_a_mesh_that_cannot_be_used_is_refused(mesh, said):
     with pytest.raises(ValueError, match=said):
         World(Course((mesh, Patch((0, 0, 0)))))
@@ -294,7 +344,9 @@ def waves(rows):
     side = np.linspace(-100, 100, rows)
     x, y = (a.ravel() for a in np.meshgrid(side, side, indexing='ij'))
     first = np.arange(rows * rows).reshape(rows, rows)[:-1, :-1].ravel()
-    faces = np.r_[np.c_[first, first + rows, first + 1], np.c_[first + 1, first + rows, first + rows + 1]]
+    faces = np.r_[
+        np.c_[first, first + rows, first + 1], np.c_[first + 1, first + rows, first + rows + 1]
+    ]
     return course(np.c_[x, y, 0.5 * np.sin(0.1 * x) * np.sin(0.07 * y)], faces)
 
 

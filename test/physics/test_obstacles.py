@@ -1,17 +1,42 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Trees and stones: what is solid is never passed through, and leaves only brake."""
+
 from math import exp, hypot, sqrt
 import os
 
 from driving_range import GRAVITY, HARD
-from golf_sim_ros.physics import (Collision, Course, Cylinder, Material, Phase, Plane, Restitution, Sphere,
-                                  World, simulate_many)
+from golf_sim_ros.physics import (
+    Collision,
+    Course,
+    Cylinder,
+    Material,
+    Phase,
+    Plane,
+    Restitution,
+    simulate_many,
+    Sphere,
+    World,
+)
 import numpy as np
 from oracles import RADIUS
 import pytest
 from scene import energy
 
-SHOTS = int(os.environ.get('RANDOM_SHOTS', 300)) // 10  # 100,000 for the whole lot: RANDOM_SHOTS=1000000
+# 100,000 for the whole lot: RANDOM_SHOTS=1000000
+SHOTS = int(os.environ.get('RANDOM_SHOTS', 300)) // 10
 WOOD = Material('wood', Restitution(0.45), 0.0, 0.45, 0.4, 0.05, 0.002)
 LEAVES = Material('leaves', drag=0.25)
 IDEAL = Material('ideal', Restitution(1.0))
@@ -40,7 +65,7 @@ def test_a_ball_is_reflected_by_a_trunk_as_by_the_plane_that_touches_it():
     aside = 0.1
     world = among(Cylinder((2.0, aside, 0.0), 0.3, 8.0, IDEAL))
     world.place('ball', (0, 0, 1.0), (20, 0, 0))
-    hit, = (event for event in world.advance(0.2) if isinstance(event, Collision))
+    (hit,) = (event for event in world.advance(0.2) if isinstance(event, Collision))
     reach = 0.3 + RADIUS
     normal = np.array((-sqrt(1 - (aside / reach) ** 2), -aside / reach, 0.0))
     assert hit.kind == 'obstacle' and hit.with_ == 'ideal'
@@ -54,7 +79,9 @@ def test_a_ball_dropped_beside_the_middle_of_a_sphere_leaves_along_the_mirrored_
     world = among(Sphere((0.0, 0.0, 1.0), 0.5, IDEAL), tee=(5.0, 0.0))
     world.place('ball', (0.2, 0, 3.0), (0, 0, -10))
     hit = next(event for event in world.advance(1.0) if isinstance(event, Collision))
-    assert np.linalg.norm(np.subtract(hit.position, (0, 0, 1))) == pytest.approx(0.5 + RADIUS, abs=1e-9)
+    assert np.linalg.norm(np.subtract(hit.position, (0, 0, 1))) == pytest.approx(
+        0.5 + RADIUS, abs=1e-9
+    )
     assert hit.normal[0] == pytest.approx(0.2 / (0.5 + RADIUS), abs=1e-9)
 
 
@@ -62,7 +89,8 @@ def test_no_shot_passes_a_cylinder_of_10_mm():
     random = np.random.default_rng(7)
     course = Course((Plane(material=HARD),), obstacles=(STICK,), effects=GRAVITY)
     aside = random.uniform(-1, 1, SHOTS) * (0.01 + RADIUS)
-    aside[::4] = (0.01 + RADIUS) * (1 - 10.0 ** random.uniform(-12, -2, len(aside[::4])))  # by a hair
+    # by a hair
+    aside[::4] = (0.01 + RADIUS) * (1 - 10.0 ** random.uniform(-12, -2, len(aside[::4])))
     spins = random.normal(size=(SHOTS, 3))
     spins *= (random.uniform(0, 2000, SHOTS) / np.linalg.norm(spins, axis=1))[:, np.newaxis]
     world = World(course)
@@ -78,11 +106,17 @@ def test_no_shot_passes_a_cylinder_of_10_mm():
 
 def test_shots_into_a_wood_end_outside_of_every_trunk():
     random = np.random.default_rng(3)
-    trunks = tuple(Cylinder((x, y, 0.0), radius, 8.0, WOOD) for x, y, radius in
-                   zip(random.uniform(5, 60, 40), random.uniform(-15, 15, 40), random.uniform(0.01, 0.4, 40)))
+    trunks = tuple(
+        Cylinder((x, y, 0.0), radius, 8.0, WOOD)
+        for x, y, radius in zip(
+            random.uniform(5, 60, 40), random.uniform(-15, 15, 40), random.uniform(0.01, 0.4, 40)
+        )
+    )
     course = Course((Plane(material=HARD),), obstacles=trunks, effects=GRAVITY)
     speeds, turns = random.uniform(10, 40, SHOTS), random.uniform(-0.3, 0.3, SHOTS)
-    velocities = np.stack((speeds * np.cos(turns), speeds * np.sin(turns), random.uniform(0, 15, SHOTS)), -1)
+    velocities = np.stack(
+        (speeds * np.cos(turns), speeds * np.sin(turns), random.uniform(0, 15, SHOTS)), -1
+    )
     ended = simulate_many(course, velocities, random.normal(size=(SHOTS, 3)) * 100)
     assert set(ended['status']) == {'at_rest'}
     for position in ended['position']:
@@ -108,7 +142,10 @@ def test_a_ball_driven_between_trunk_and_ground_comes_to_rest_and_gains_no_energ
 def test_a_ball_rests_on_a_stump_and_falls_off_it_when_it_rolls_over_the_rim():
     world = among(Cylinder((0.0, 0.0, 0.0), 0.3, 0.5, WOOD), tee=(3.0, 0.0))
     world.place('ball', (0.1, 0.1, 0.5 + RADIUS))
-    assert world['ball'].position == pytest.approx((0.1, 0.1, 0.5 + RADIUS)) and world['ball'].lie == 'wood'
+    assert (
+        world['ball'].position == pytest.approx((0.1, 0.1, 0.5 + RADIUS))
+        and world['ball'].lie == 'wood'
+    )
     world.strike('ball', (1.0, 0.0, 0.0))
     world.advance(3.0)
     assert world['ball'].position[2] == pytest.approx(RADIUS) and world['ball'].position[0] > 0.3
@@ -122,7 +159,9 @@ def test_leaves_take_exp_of_their_way_from_a_balls_speed(radius, speed):
     world.place('ball', (10.0 - radius - 1, 0, 50.0), (speed, 0, 0))
     while world['ball'].position[0] < 10.0 + radius:
         world.advance(0.01)
-    assert world['ball'].velocity == pytest.approx((speed * exp(-0.25 * 2 * radius), 0, 0), rel=1e-4)
+    assert world['ball'].velocity == pytest.approx(
+        (speed * exp(-0.25 * 2 * radius), 0, 0), rel=1e-4
+    )
 
 
 def test_steps_grow_again_past_the_jump_of_drag_where_leaves_begin_and_end():

@@ -1,14 +1,38 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Placing and teeing: the whole ball has room, on the ground, or it is refused with the reason."""
-from math import cos, hypot, pi, sin
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
 
-import pytest
+"""Placing and teeing: the whole ball has room, on the ground, or it is refused with the reason."""
+
+from math import cos, hypot, pi, sin
 
 from driving_range import HARD, level
 from golf_sim_ros.course import CourseError, load_course, shipped_courses
-from golf_sim_ros.physics import (Ball, Course, Cylinder, Material, Patch, Phase, Plane, Result, Sphere,
-                                  Water, World)
+from golf_sim_ros.physics import (
+    Ball,
+    Course,
+    Cylinder,
+    Material,
+    Patch,
+    Phase,
+    Plane,
+    Result,
+    Sphere,
+    Water,
+    World,
+)
 from oracles import RADIUS
+import pytest
 
 STEEP = Material('steep', HARD.restitution, 0.0, 0.5, 0.4, 0.05)
 WOOD = Material('wood', HARD.restitution, 0.0, 0.4, 0.3)
@@ -17,8 +41,10 @@ STICK = 0.0095  # m, radius
 
 def hillside(grade):
     """A course that rises towards +x."""
-    return Course((Plane(normal=(-grade / hypot(1, grade), 0, 1 / hypot(1, grade)), material=STEEP),),
-                  effects=('gravity',))
+    return Course(
+        (Plane(normal=(-grade / hypot(1, grade), 0, 1 / hypot(1, grade)), material=STEEP),),
+        effects=('gravity',),
+    )
 
 
 @pytest.mark.parametrize('wind', [(0.0, 0.0, 0.0), (-40.0, 60.0, 0.0)])
@@ -66,7 +92,7 @@ def test_a_ball_that_is_lost_from_the_tee_is_held_there_again():
     events = []
     while world.moving:
         events += world.advance(0.5)
-    result, = (event for event in events if isinstance(event, Result))
+    (result,) = (event for event in events if isinstance(event, Result))
     assert result.status in ('out_of_bounds', 'time_limit')
     assert result.status == 'time_limit' or world['ball'].position[:2] == (0.0, 0.0)
 
@@ -85,22 +111,33 @@ def saved(tmp_path, text):
     return path
 
 
-@pytest.mark.parametrize('what, reason', [
-    ('obstacles: [{shape: cylinder, base: [0, 0, 0], radius: 0.3, height: 8, material: rough}]', 'obstacle'),
-    ('obstacles: [{shape: sphere, center: [0.03, 0, 0.02], radius: 0.02, material: rough}]', 'obstacle'),
-    ('water: [{polygon: [[-1, -1], [1, -1], [1, 1], [-1, 1]], level: 0.1}]', 'water'),
-    ('tee: [5, 5]\nhole: [5, 5]\nball: {radius: 0.05}', 'flagstick'),
-])
+@pytest.mark.parametrize(
+    'what, reason',
+    [
+        (
+            'obstacles: [{shape: cylinder, base: [0, 0, 0], radius: 0.3, height: 8, material: rough}]',
+            'obstacle',
+        ),
+        (
+            'obstacles: [{shape: sphere, center: [0.03, 0, 0.02], radius: 0.02, material: rough}]',
+            'obstacle',
+        ),
+        ('water: [{polygon: [[-1, -1], [1, -1], [1, 1], [-1, 1]], level: 0.1}]', 'water'),
+        ('tee: [5, 5]\nhole: [5, 5]\nball: {radius: 0.05}', 'flagstick'),
+    ],
+)
 def test_a_tee_inside_of_something_is_an_error_of_the_course(tmp_path, what, reason):
     path = saved(tmp_path, f'ground: [{{shape: plane, material: green}}]\n{what}\n')
     with pytest.raises(CourseError) as error:
         load_course(path)
-    line, = str(error.value).splitlines()
+    (line,) = str(error.value).splitlines()
     assert line.startswith(f'{path}: tee [') and reason in line
 
 
 def test_the_hillside_that_ended_the_node_is_played(tmp_path):
-    course = load_course(saved(tmp_path, 'ground: [{shape: plane, normal: [-0.3, 0, 1], material: green}]\n'))
+    course = load_course(
+        saved(tmp_path, 'ground: [{shape: plane, normal: [-0.3, 0, 1], material: green}]\n')
+    )
     world = World(course)
     world.strike('ball', (1.0, 0.0, 3.0))
     assert world.moving
@@ -208,7 +245,9 @@ def test_a_place_out_of_this_world_is_refused(place):
 
 
 @pytest.mark.parametrize('accuracy', ['standard', 'reference'])
-@pytest.mark.parametrize('place', [(1e6, 0.0), (-1e6, 1e6), (645447.3692832283, 898691.9485607379)])
+@pytest.mark.parametrize(
+    'place', [(1e6, 0.0), (-1e6, 1e6), (645447.3692832283, 898691.9485607379)]
+)
 def test_a_weak_shot_far_away_comes_to_rest_in_few_segments(place, accuracy):
     world = World(level(HARD), accuracy=accuracy)
     world.place('ball', place)
@@ -218,12 +257,18 @@ def test_a_weak_shot_far_away_comes_to_rest_in_few_segments(place, accuracy):
 
 
 def test_strikes_are_counted_from_the_tee():
-    world = World(Course((Plane(material=HARD),), hole=(3.0, 0.0), effects=('gravity',),
-                         bounds=((-5, -5), (9, -5), (9, 5), (-5, 5))))
+    world = World(
+        Course(
+            (Plane(material=HARD),),
+            hole=(3.0, 0.0),
+            effects=('gravity',),
+            bounds=((-5, -5), (9, -5), (9, 5), (-5, 5)),
+        )
+    )
 
     def played(velocity):
         world.strike('ball', velocity)
-        result, = (event for event in world.advance(60.0) if isinstance(event, Result))
+        (result,) = (event for event in world.advance(60.0) if isinstance(event, Result))
         return result.status, result.stroke, result.penalty
 
     assert played((1.0, 0.5, 0.0)) == ('at_rest', 1, 0)

@@ -1,15 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Several balls: impacts of two, of many at one instant, and balls that lean on each other."""
+
 from itertools import permutations
 import json
-
-import numpy as np
-import pytest
 
 from golf_sim_ros.physics import Ball, Course, Material, Patch, Phase, Plane, Restitution, World
 from golf_sim_ros.physics.state.events import new_log, next_event
 from hard_scenes import IN_A_BOWL, poured
+import numpy as np
 from other_process import run
+import pytest
 
 RADIUS = Ball().radius
 IDEAL = Material('ideal', Restitution(1.0))
@@ -19,8 +32,12 @@ FLOOR = Material('floor', Restitution(0.5), 0.0, 0.4, 0.3, 0.02, 0.001)
 
 def table(material, balls, restitution=1.0, friction=0.0):
     """World of `balls` far away from the origin on a level plane."""
-    course = Course((Plane(material=material),), tee=(0.0, 500.0),
-                    ball=Ball(restitution=restitution, friction=friction), effects=('gravity', 'ball_ball'))
+    course = Course(
+        (Plane(material=material),),
+        tee=(0.0, 500.0),
+        ball=Ball(restitution=restitution, friction=friction),
+        effects=('gravity', 'ball_ball'),
+    )
     return World(course, balls)
 
 
@@ -31,8 +48,10 @@ def rolling(speed):
 
 def motion(world, names):
     """Positions and velocities of balls, two (n, 3) arrays."""
-    return (np.array([world[name].position for name in names]),
-            np.array([world[name].velocity for name in names]))
+    return (
+        np.array([world[name].position for name in names]),
+        np.array([world[name].velocity for name in names]),
+    )
 
 
 def cradle(order, restitution):
@@ -57,14 +76,18 @@ def test_a_row_of_twenty_passes_all_the_speed_on():
 
 
 def test_each_impact_of_a_row_that_gives_less_back_passes_half_of_1_plus_e_on():
-    assert cradle(range(5), 0.9)[-1] == pytest.approx(2.0 * 0.95 ** 4, abs=1e-9)
+    assert cradle(range(5), 0.9)[-1] == pytest.approx(2.0 * 0.95**4, abs=1e-9)
 
 
 def rack(order, friction):
     """Positions, velocities and collisions after a break head-on, in the order of their places."""
     world = table(CLOTH, 16, 0.9, friction)
     names = [world.names[i] for i in order]
-    places = [(row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS) for row in range(5) for k in range(row + 1)]
+    places = [
+        (row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS)
+        for row in range(5)
+        for k in range(row + 1)
+    ]
     for name, place in zip(names[1:], places):
         world.place(name, (*place, RADIUS))
     world.place(names[0], (-0.3, 0.0, RADIUS), **rolling(5.0))
@@ -91,14 +114,18 @@ def test_a_rack_broken_head_on_is_symmetric_and_does_not_know_its_order(friction
 
 def test_a_break_without_friction_keeps_the_momentum():
     world = table(IDEAL, 16, 0.9)
-    places = [(row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS) for row in range(5) for k in range(row + 1)]
+    places = [
+        (row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS)
+        for row in range(5)
+        for k in range(row + 1)
+    ]
     for name, place in zip(world.names[1:], places):
         world.place(name, (*place, RADIUS))
     world.place(world.names[0], (-0.3, 0.01, RADIUS), velocity=(5.0, 0.0, 0.0))
     world.advance(0.5)
     velocities = motion(world, world.names)[1]
     assert velocities.sum(0) == pytest.approx([5.0, 0.0, 0.0], abs=1e-9)
-    assert (velocities ** 2).sum() < 25.0
+    assert (velocities**2).sum() < 25.0
 
 
 @pytest.mark.parametrize('friction', [0.05, 1.0])
@@ -107,7 +134,9 @@ def test_an_oblique_impact_throws_and_turns_as_its_closed_form_says(friction, cu
     world = table(IDEAL, ('cue', 'object'), 0.8, friction)
     place = 2 * RADIUS * np.array([-np.sqrt(1 - cut * cut), -cut, 0.0])
     world.place('object', (0.0, 0.0, RADIUS))
-    world.place('cue', (place[0] - 0.1, place[1], RADIUS), velocity=(3.0, 0.0, 0.0), spin=(0.0, 0.0, 20.0))
+    world.place(
+        'cue', (place[0] - 0.1, place[1], RADIUS), velocity=(3.0, 0.0, 0.0), spin=(0.0, 0.0, 20.0)
+    )
     world.advance(0.1)
     mass, normal = world.course.ball.mass, place / (2 * RADIUS)
     velocity, spin = np.array([3.0, 0.0, 0.0]), np.array([0.0, 0.0, 20.0])
@@ -147,7 +176,9 @@ def test_the_impulses_told_of_an_instant_are_all_that_changed_each_ball():
         gained[event.ball] += event.impulse
         if event.kind == 'ball':
             gained[event.with_] -= event.impulse
-    moved = {event.ball: np.subtract(event.velocity_after, event.velocity_before) for event in first}
+    moved = {
+        event.ball: np.subtract(event.velocity_after, event.velocity_before) for event in first
+    }
     for name, change in moved.items():
         assert gained[name] == pytest.approx(Ball().mass * change, rel=0, abs=1e-12), name
     assert {'red', 'blue'} <= set(moved)
@@ -233,7 +264,11 @@ def test_several_balls_play_on_from_a_state_as_they_would_have():
 
 def test_what_a_world_has_played_before_changes_no_bit_of_a_break():
     world = table(CLOTH, 16, 0.9, 0.05)
-    places = [(row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS) for row in range(5) for k in range(row + 1)]
+    places = [
+        (row * np.sqrt(3) * RADIUS, (2 * k - row) * RADIUS)
+        for row in range(5)
+        for k in range(row + 1)
+    ]
     for name, place in zip(world.names, (*places, (-0.3, 0.0))):
         world.place(name, (*place, RADIUS))
     start, ends = world.state(), []
@@ -248,23 +283,37 @@ def test_what_a_world_has_played_before_changes_no_bit_of_a_break():
 def overlaps(world):
     """How deep [m] the two balls that overlap most do."""
     places = motion(world, world.names)[0]
-    apart = np.linalg.norm(places[:, None] - places[None], axis=2) + 10 * RADIUS * np.eye(len(places))
+    apart = np.linalg.norm(places[:, None] - places[None], axis=2) + 10 * RADIUS * np.eye(
+        len(places)
+    )
     return 2 * RADIUS - apart.min()
 
 
 def box(side, height=2.0):
     """Floor and four walls around the origin."""
-    walls = [Patch((0.5 * side * x, 0.5 * side * y, 0.5 * height), (-x, -y, 0), 0.0,
-                   side + 0.1, height, FLOOR)
-             for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))]
+    walls = [
+        Patch(
+            (0.5 * side * x, 0.5 * side * y, 0.5 * height),
+            (-x, -y, 0),
+            0.0,
+            side + 0.1,
+            height,
+            FLOOR,
+        )
+        for x, y in ((1, 0), (-1, 0), (0, 1), (0, -1))
+    ]
     return (Plane(material=FLOOR), *walls)
 
 
 @pytest.mark.parametrize('count', [20, 60])
 def test_balls_poured_into_a_box_come_to_rest_within_20_s_without_overlap_and_stay(count):
     side, random = 0.2, np.random.default_rng(count)
-    course = Course(box(side), tee=(0.0, 500.0), ball=Ball(restitution=0.5, friction=0.2),
-                    effects=('gravity', 'ball_ball'))
+    course = Course(
+        box(side),
+        tee=(0.0, 500.0),
+        ball=Ball(restitution=0.5, friction=0.2),
+        effects=('gravity', 'ball_ball'),
+    )
     world = World(course, count)
     for k, name in enumerate(world.names):
         place = 0.06 * np.array((k % 3 - 1, k // 3 % 3 - 1, k // 9)) + (0.0, 0.0, 0.1)
@@ -272,7 +321,10 @@ def test_balls_poured_into_a_box_come_to_rest_within_20_s_without_overlap_and_st
     world.advance(20.0)
     assert not world.moving and overlaps(world) < 1e-4
     places = motion(world, world.names)[0]
-    assert np.abs(places[:, :2]).max() < 0.5 * side - RADIUS + 1e-4 and places[:, 2].min() > RADIUS - 1e-4
+    assert (
+        np.abs(places[:, :2]).max() < 0.5 * side - RADIUS + 1e-4
+        and places[:, 2].min() > RADIUS - 1e-4
+    )
     world.advance(60.0)
     assert np.array_equal(motion(world, world.names)[0], places)
 
@@ -280,12 +332,18 @@ def test_balls_poured_into_a_box_come_to_rest_within_20_s_without_overlap_and_st
 @pytest.mark.parametrize('taken', ['placed', 'struck'])
 def test_a_ball_on_three_falls_when_one_of_them_is_taken_away(taken):
     floor = Material('rough', Restitution(0.3), 0.0, 0.9, 0.9, 0.05)
-    course = Course((Plane(material=floor),), tee=(0.0, 500.0), ball=Ball(restitution=0.3, friction=0.9),
-                    effects=('gravity', 'ball_ball'))
+    course = Course(
+        (Plane(material=floor),),
+        tee=(0.0, 500.0),
+        ball=Ball(restitution=0.3, friction=0.9),
+        effects=('gravity', 'ball_ball'),
+    )
     world, apart = World(course, ('a', 'b', 'c', 'top')), 2.0002 * RADIUS
     for name, turn in zip('abc', np.arange(3) * 2 * np.pi / 3):
         world.place(name, apart / np.sqrt(3) * np.array((np.cos(turn), np.sin(turn))))
-    world.place('top', (0.0, 0.0, RADIUS + np.sqrt(2 / 3) * apart + 1e-3), velocity=(0.0, 0.0, 0.0))
+    world.place(
+        'top', (0.0, 0.0, RADIUS + np.sqrt(2 / 3) * apart + 1e-3), velocity=(0.0, 0.0, 0.0)
+    )
     world.advance(5.0)
     assert not world.moving and world['top'].position[2] > 2.5 * RADIUS
     if taken == 'placed':
@@ -305,7 +363,9 @@ def test_a_pile_goes_on_from_its_state_to_the_bit():
     for _ in range(20):
         for world in worlds:
             world.advance(0.1)
-        assert np.array_equal(motion(worlds[0], worlds[0].names), motion(worlds[1], worlds[1].names))
+        assert np.array_equal(
+            motion(worlds[0], worlds[0].names), motion(worlds[1], worlds[1].names)
+        )
     assert not worlds[0].moving
 
 

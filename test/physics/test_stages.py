@@ -1,7 +1,21 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Where the engine's time goes: counted by stage, and only where somebody asks."""
-from driving_range import TURF, level
-from golf_sim_ros.physics import World, cycles_now
+
+from driving_range import level, TURF
+from golf_sim_ros.physics import cycles_now, World
 from other_process import run
 
 
@@ -17,7 +31,11 @@ def spent(balls, velocity, seconds):
 
 def cases():
     """`spent` of a ball that flies, of one that rolls, of one of two that flies."""
-    return spent(1, (30.0, 0.0, 20.0), 1.0), spent(1, (2.0, 0.0, 0.0), 0.1), spent(2, (30.0, 0.0, 20.0), 1.0)
+    return (
+        spent(1, (30.0, 0.0, 20.0), 1.0),
+        spent(1, (2.0, 0.0, 0.0), 0.1),
+        spent(2, (30.0, 0.0, 20.0), 1.0),
+    )
 
 
 def test_time_is_booked_on_the_stage_it_is_spent_in():

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What turf and sand do to balls that land, and to those that roll: against what golfers see."""
+
 import csv
 from math import pi
 import os
@@ -7,16 +21,31 @@ from pathlib import Path
 
 from driving_range import launched, level
 from golf_sim_ros.course.material_file import shipped
-from golf_sim_ros.physics import ACCURACY, Course, Material, PENNER, Phase, Plane, World, simulate_many
+from golf_sim_ros.physics import (
+    ACCURACY,
+    Course,
+    Material,
+    PENNER,
+    Phase,
+    Plane,
+    simulate_many,
+    World,
+)
 import numpy as np
 import pytest
 
 MPH, YARD, RPM, DEGREE = 0.44704, 0.9144, pi / 30, pi / 180
 IMPACTS = int(os.environ.get('RANDOM_SHOTS', 100))  # of a material; 15000 for the whole lot
 DATA = Path(__file__).parents[1] / 'data'
-PENNER_ROWS = [row for row in csv.DictReader(
-    line for line in (DATA / 'bounce_expected_penner.csv').read_text().splitlines() if line[0] != '#')
-    if row['surface_model'].startswith('Penner')]
+PENNER_ROWS = [
+    row
+    for row in csv.DictReader(
+        line
+        for line in (DATA / 'bounce_expected_penner.csv').read_text().splitlines()
+        if line[0] != '#'
+    )
+    if row['surface_model'].startswith('Penner')
+]
 
 
 def ground(name):
@@ -26,8 +55,11 @@ def ground(name):
 
 def run(material, speed, launch, backspin):
     """Carry, and how far on from there a shot ends [yd]: mph, degrees, rpm."""
-    shot, = simulate_many(ground(material), launched(np.array([speed * MPH]), launch * DEGREE),
-                          [(0.0, -backspin * RPM, 0.0)])
+    (shot,) = simulate_many(
+        ground(material),
+        launched(np.array([speed * MPH]), launch * DEGREE),
+        [(0.0, -backspin * RPM, 0.0)],
+    )
     return shot['carry'] / YARD, (shot['position'][0] - shot['carry']) / YARD
 
 
@@ -58,11 +90,19 @@ def test_penners_turf_is_as_published(row):
     world = World(course, effects=('gravity', 'penner_2002'))
     speed, down = float(row['v_in_mps']), float(row['angle_below_horizontal_deg']) * DEGREE
     radius = course.ball.radius
-    world.place('ball', (0, 0, radius), velocity=(speed * np.cos(down), 0.0, -speed * np.sin(down)),
-                spin=(0.0, -float(row['backspin_in_rad_s']), 0.0))
+    world.place(
+        'ball',
+        (0, 0, radius),
+        velocity=(speed * np.cos(down), 0.0, -speed * np.sin(down)),
+        spin=(0.0, -float(row['backspin_in_rad_s']), 0.0),
+    )
     world.advance(1e-9)
     told = world['ball']
-    expected = (float(row['vx_out']), float(row['vy_out']), radius * float(row['backspin_out_rad_s']))
+    expected = (
+        float(row['vx_out']),
+        float(row['vy_out']),
+        radius * float(row['backspin_out_rad_s']),
+    )
     found = (told.velocity[0], told.velocity[2], -radius * told.spin[1])
     size = np.hypot(*expected[:2])
     np.testing.assert_allclose(found, expected, atol=0.02 * size)
@@ -78,8 +118,9 @@ def test_a_ball_that_skims_on_turf_that_never_stops_to_throw_it_up_comes_to_rest
         assert ends['bounces'].max() < 1000
 
 
-@pytest.mark.parametrize('name', ('green', 'fairway', 'rough', 'soft_green', 'hardpan', 'artificial_turf',
-                                  'sand'))
+@pytest.mark.parametrize(
+    'name', ('green', 'fairway', 'rough', 'soft_green', 'hardpan', 'artificial_turf', 'sand')
+)
 def test_no_impact_leaves_into_the_ground_or_gains_energy(name):
     rng = np.random.default_rng(11)
     world = World(ground(name))
@@ -92,8 +133,8 @@ def test_no_impact_leaves_into_the_ground_or_gains_energy(name):
         world.place('ball', (0, 0, radius), velocity=velocity, spin=spin)
         world.advance(1e-9)
         told = world['ball']
-        before = velocity @ velocity + inertia * radius ** 2 * spin @ spin
-        after = np.square(told.velocity).sum() + inertia * radius ** 2 * np.square(told.spin).sum()
+        before = velocity @ velocity + inertia * radius**2 * spin @ spin
+        after = np.square(told.velocity).sum() + inertia * radius**2 * np.square(told.spin).sum()
         assert told.velocity[2] >= -1e-7 and after <= before * (1 + 1e-9) + 1e-6
 
 
@@ -126,7 +167,9 @@ def putt_ends(speeds, headings, fall):
     for speed, heading in zip(speeds, headings):
         ahead = np.cross((-np.sin(heading), np.cos(heading), 0.0), up)
         velocity = speed * ahead / np.linalg.norm(ahead)
-        world.place('ball', course.ball.radius * up, velocity, np.cross(up, velocity) / course.ball.radius)
+        world.place(
+            'ball', course.ball.radius * up, velocity, np.cross(up, velocity) / course.ball.radius
+        )
         world.advance(60.0)
         assert world['ball'].phase == Phase.REST
         ends.append(world['ball'].position[:2])
@@ -135,10 +178,13 @@ def putt_ends(speeds, headings, fall):
 
 @pytest.mark.parametrize('fall', (0.0, 0.01, 0.03))
 def test_where_a_putt_ends_has_no_step_and_no_kink(fall):
-    speeds, headings = map(np.ravel, np.meshgrid(np.linspace(0.3, 3.0, 5), np.linspace(-3.0, 3.0, 7)))
+    speeds, headings = map(
+        np.ravel, np.meshgrid(np.linspace(0.3, 3.0, 5), np.linspace(-3.0, 3.0, 7))
+    )
     for size in (1e-2, 1e-3):
         for more, turn in ((size, 0.0), (0.0, size), (size, size)):
-            ahead, here, behind = (putt_ends(speeds * (1 + k * more), headings + k * turn, fall)
-                                   for k in (1, 0, -1))
+            ahead, here, behind = (
+                putt_ends(speeds * (1 + k * more), headings + k * turn, fall) for k in (1, 0, -1)
+            )
             # Second differences of a smooth function go with the step's square.
             assert np.abs(ahead - 2 * here + behind).max() < 60 * size * size

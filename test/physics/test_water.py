@@ -1,10 +1,36 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Water and bounds: where a ball is in, what becomes of its shot, and where it is put back."""
+
 from math import cos, hypot, pi, radians, sin, sqrt
 import os
 
-from golf_sim_ros.physics import (Ball, Collision, Course, Material, Patch, Phase, Plane, Restitution, Result,
-                                  Water, World, simulate_many)
+from golf_sim_ros.physics import (
+    Ball,
+    Collision,
+    Course,
+    Material,
+    Patch,
+    Phase,
+    Plane,
+    Restitution,
+    Result,
+    simulate_many,
+    Water,
+    World,
+)
 import numpy as np
 from oracles import RADIUS
 import pytest
@@ -21,7 +47,9 @@ CALM = ('gravity', 'water', 'ball_ball')
 def pond(depth=2.0, **more):
     """Course with a pond from x = 10 to 40 m, `depth` deep."""
     floor = Patch((25.0, 0.0, LEVEL - depth), (0, 0, 1), 0.0, 30.0, 10.0, TURF)
-    course = Course((Plane(material=TURF, cut=(POND,)), floor), water=(Water(POND, LEVEL),), effects=CALM)
+    course = Course(
+        (Plane(material=TURF, cut=(POND,)), floor), water=(Water(POND, LEVEL),), effects=CALM
+    )
     return course._replace(**more)
 
 
@@ -34,8 +62,10 @@ def bank():
 
 def split(events):
     """Collisions and results among `events`."""
-    return ([event for event in events if isinstance(event, Collision)],
-            [event for event in events if isinstance(event, Result)])
+    return (
+        [event for event in events if isinstance(event, Collision)],
+        [event for event in events if isinstance(event, Result)],
+    )
 
 
 def into(angle, speed=30.0, **more):
@@ -74,11 +104,13 @@ def test_meeting_water_is_told_as_a_collision():
 @pytest.mark.parametrize('speed', [12.0, 60.0])
 @pytest.mark.parametrize('mass', [Ball().mass, 0.08])
 def test_a_fast_ball_skips_below_the_critical_angle_and_no_steeper(speed, mass):
-    gravity = mass / (4 / 3 * pi * RADIUS ** 3 * 998.0)
+    gravity = mass / (4 / 3 * pi * RADIUS**3 * 998.0)
     critical = radians(18.0) / sqrt(gravity)
-    skip, = into(0.99 * critical, speed, ball=Ball(mass=mass))
-    assert skip.velocity_after[2] > 0 and hypot(*skip.velocity_after) < hypot(*skip.velocity_before)
-    dive, = into(1.01 * critical, speed, ball=Ball(mass=mass))
+    (skip,) = into(0.99 * critical, speed, ball=Ball(mass=mass))
+    assert skip.velocity_after[2] > 0 and hypot(*skip.velocity_after) < hypot(
+        *skip.velocity_before
+    )
+    (dive,) = into(1.01 * critical, speed, ball=Ball(mass=mass))
     assert dive.velocity_after[2] < 0
 
 
@@ -90,21 +122,24 @@ def test_a_ball_under_water_falls_as_drag_buoyancy_and_the_water_it_carries_alon
     world = World(pond(depth=8.0), accuracy='reference')
     world.place('ball', (20.0, 0.0, LEVEL + 1e-9), (8.0, 0.0, -12.0))
     wet = split(world.advance(0.001))[0][0]
-    volume = 4 / 3 * pi * RADIUS ** 3
+    volume = 4 / 3 * pi * RADIUS**3
     mass, moved = Ball().mass, Ball().mass + 0.5 * 998.0 * volume
     assert wet.velocity_after == pytest.approx(np.multiply(wet.velocity_before, mass / moved))
 
     def rates(_, state):
         v = state[3:]
-        force = -0.5 * 998.0 * 0.45 * pi * RADIUS ** 2 * np.linalg.norm(v) * v
+        force = -0.5 * 998.0 * 0.45 * pi * RADIUS**2 * np.linalg.norm(v) * v
         force[2] -= (mass - 998.0 * volume) * GRAVITY
         return [*v, *(force / moved)]
+
     start = [*wet.position, *wet.velocity_after]
     path = solve_ivp(rates, (0, 0.15), start, 'DOP853', rtol=1e-12, atol=1e-12, dense_output=True)
     for _ in range(14):
         world.advance(0.01)
         ball = world['ball']
-        assert [*ball.position, *ball.velocity] == pytest.approx(path.sol(world.time - wet.time), abs=1e-7)
+        assert [*ball.position, *ball.velocity] == pytest.approx(
+            path.sol(world.time - wet.time), abs=1e-7
+        )
     assert world['ball'].phase == Phase.FLIGHT
 
 
@@ -150,11 +185,15 @@ def test_a_ball_that_rolls_down_a_bank_is_in_the_water_where_its_middle_is():
     (wet,), (result,) = split(world.advance(30.0))
     assert (wet.kind, result.status) == ('water', 'water')
     assert wet.position[2] == pytest.approx(-1.0, abs=1e-9) and wet.position == result.position
-    assert world['ball'].phase == Phase.REST and world['ball'].position[0] == pytest.approx(0.0, abs=0.01)
+    assert world['ball'].phase == Phase.REST and world['ball'].position[0] == pytest.approx(
+        0.0, abs=0.01
+    )
 
 
 def test_a_ball_that_comes_through_the_side_of_the_outline_is_in_the_water_there():
-    course = bank()._replace(water=(Water(((20.0, -5.0), (60.0, -5.0), (60.0, 5.0), (20.0, 5.0)), -1.0),))
+    course = bank()._replace(
+        water=(Water(((20.0, -5.0), (60.0, -5.0), (60.0, 5.0), (20.0, 5.0)), -1.0),)
+    )
     world = World(course)
     world.strike('ball', (6.0, 0.0, -0.6))
     (*_, wet), (result,) = split(world.advance(30.0))
@@ -171,8 +210,11 @@ def test_where_the_ground_is_higher_than_the_level_there_is_no_water():
 
 
 def test_a_pond_without_a_floor_and_a_ball_that_floats_end_the_shot_too():
-    for course in (pond()._replace(ground=(Plane(material=TURF, cut=(POND,)),)),
-                   pond(ball=Ball(mass=0.02)), pond(effects=('gravity',))):
+    for course in (
+        pond()._replace(ground=(Plane(material=TURF, cut=(POND,)),)),
+        pond(ball=Ball(mass=0.02)),
+        pond(effects=('gravity',)),
+    ):
         world = World(course)
         world.strike('ball', (10.0, 0.0, 8.0))
         assert split(world.advance(60.0))[1][0].status == 'water'
@@ -246,7 +288,10 @@ def test_a_ball_may_go_on_from_its_state_while_it_sinks():
 def test_many_shots_are_told_the_same():
     strikes = [(10.0, 0.0, 8.0), (25.0, 0.0, 3.0), (3.0, 0.0, 1.0)]
     told = simulate_many(pond(), strikes, np.zeros((3, 3)))
-    assert list(told['status']) == ['water', 'water', 'at_rest'] and list(told['lie'][:2]) == ['water'] * 2
+    assert (
+        list(told['status']) == ['water', 'water', 'at_rest']
+        and list(told['lie'][:2]) == ['water'] * 2
+    )
 
 
 def test_a_course_with_water_compiles_nothing_that_one_without_does_not():
@@ -257,9 +302,13 @@ def test_a_course_with_water_compiles_nothing_that_one_without_does_not():
 
 # Bounds
 
+
 def test_a_ball_that_goes_out_is_told_as_a_collision_just_before_its_result():
-    course = Course((Plane(material=TURF),), effects=('gravity',),
-                    bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0)))
+    course = Course(
+        (Plane(material=TURF),),
+        effects=('gravity',),
+        bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0)),
+    )
     world = World(course)
     world.strike('ball', (7.0, 0.0, 0.0))
     events = world.advance(20.0)
@@ -270,7 +319,8 @@ def test_a_ball_that_goes_out_is_told_as_a_collision_just_before_its_result():
     assert (result.stroke, result.penalty) == (1, 1)
     free = World(course._replace(bounds=None))
     free.strike('ball', (7.0, 0.0, 0.0))
-    assert free.advance(20.0)[0].position == result.position  # where it comes to rest, as without bounds
+    # where it comes to rest, as without bounds
+    assert free.advance(20.0)[0].position == result.position
 
 
 @pytest.mark.parametrize('beyond, status', [(-0.001, 'at_rest'), (0.001, 'out_of_bounds')])
@@ -289,8 +339,11 @@ def test_a_ball_is_out_only_if_all_of_it_lies_beyond_the_line(beyond, status):
 def test_a_ball_that_rolls_back_over_the_line_is_in_play():
     away = 1.0 / np.hypot(1.0, 0.1)
     smooth = TURF._replace(rolling_resistance=0.02)
-    course = Course((Plane(material=smooth), Plane((3.0, 0.0, 0.0), (-0.1 * away, 0.0, away), smooth)),
-                    effects=('gravity',), bounds=((-90.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-90.0, 5.0)))
+    course = Course(
+        (Plane(material=smooth), Plane((3.0, 0.0, 0.0), (-0.1 * away, 0.0, away), smooth)),
+        effects=('gravity',),
+        bounds=((-90.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-90.0, 5.0)),
+    )
     world = World(course)
     world.strike('ball', (3.9, 0.0, 0.0), (0.0, 3.9 / RADIUS, 0.0))
     furthest, events = 0.0, []
@@ -302,8 +355,11 @@ def test_a_ball_that_rolls_back_over_the_line_is_in_play():
 
 
 def test_a_ball_that_lands_out_is_told_of_the_bounces_and_at_its_rest_of_the_bounds():
-    course = Course((Plane(material=TURF),), effects=('gravity',),
-                    bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0)))
+    course = Course(
+        (Plane(material=TURF),),
+        effects=('gravity',),
+        bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0)),
+    )
     world = World(course)
     world.strike('ball', (10.0, 0.0, 8.0))
     hits, (result,) = split(world.advance(20.0))
@@ -312,7 +368,9 @@ def test_a_ball_that_lands_out_is_told_of_the_bounces_and_at_its_rest_of_the_bou
 
 
 def test_a_ball_that_falls_off_the_edge_of_all_ground_is_out():
-    world = World(Course((Patch((0, 0, 0), (0, 0, 1), 0.0, 10.0, 10.0, TURF),), effects=('gravity',)))
+    world = World(
+        Course((Patch((0, 0, 0), (0, 0, 1), 0.0, 10.0, 10.0, TURF),), effects=('gravity',))
+    )
     world.strike('ball', (8.0, 0.0, 0.0))
     hits, (result,) = split(world.advance(20.0))
     assert hits[-1].kind == result.status == 'out_of_bounds'
@@ -323,14 +381,26 @@ def test_water_out_of_bounds_is_out_of_bounds():
     world = World(pond(bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0))))
     world.strike('ball', (10.0, 0.0, 8.0))
     hits, (result,) = split(world.advance(20.0))
-    assert [hit.kind for hit in hits] == ['water', 'out_of_bounds'] and result.status == 'out_of_bounds'
+    assert [hit.kind for hit in hits] == [
+        'water',
+        'out_of_bounds',
+    ] and result.status == 'out_of_bounds'
 
 
 @pytest.mark.parametrize('order', [('a', 'b'), ('b', 'a')])
 def test_balls_that_meet_in_the_air_beyond_the_bounds_are_not_out_yet(order):
-    world = World(Course((Plane(material=TURF),), effects=('gravity', 'ball_ball'),
-                         bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0))), ('a', 'b'))
-    starts = {'a': ((18.0, 0.0, 0.25), (10.0, 0.0, 0.0)), 'b': ((20.0, 0.0, 0.25), (-1.0, 0.0, 0.0))}
+    world = World(
+        Course(
+            (Plane(material=TURF),),
+            effects=('gravity', 'ball_ball'),
+            bounds=((-5.0, -5.0), (9.0, -5.0), (9.0, 5.0), (-5.0, 5.0)),
+        ),
+        ('a', 'b'),
+    )
+    starts = {
+        'a': ((18.0, 0.0, 0.25), (10.0, 0.0, 0.0)),
+        'b': ((20.0, 0.0, 0.25), (-1.0, 0.0, 0.0)),
+    }
     for name in order:
         world.place(name, *starts[name])
     met, *_ = world.advance(0.2)

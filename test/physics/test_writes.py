@@ -1,29 +1,67 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What a kernel's docstring says that it writes is what it writes, itself or by what it calls.
 
-Read from the sources. What counts are fields of `BALL` and `CONTACT`, arrays of the workspace, and the log. A
-name in a docstring may be a field, an array, or one of `GROUPS`; all that is written must be named, and of
-each name something must be written.
+Read from the sources. What counts are fields of `BALL` and `CONTACT`, arrays of the workspace, and
+the log. A name in a docstring may be a field, an array, or one of `GROUPS`; all that is written
+must be named, and of each name something must be written.
 """
+
 import ast
 import re
 
+from golf_sim_ros.physics.collision.workspace import CONTACT, MultiBallWorkspace
+from golf_sim_ros.physics.state.ball import BALL
 import pytest
 from sources import field_of, functions, targets, trees
 
-from golf_sim_ros.physics.collision.workspace import CONTACT, MultiBallWorkspace
-from golf_sim_ros.physics.state.ball import BALL
-
-# What a name in a docstring stands for, beside the name of a field: of a ball, if nothing else is said.
+# What a name in a docstring stands for, beside the name of a field: of a ball, if nothing else is
+# said.
 CURVE = ('span', 'origin', 'position_coefficients', 'spin_coefficients')
 LANDING = ('landed', 'landing', 'landed_at', 'landing_velocity')
 WARM_START = ('stored_count', 'stored_partners', 'stored_impulses')
 MICRO_BOUNCES = ('micro_bounce_end', 'micro_bounce_load', 'micro_bounce_air')
 INTEGRATOR = ('step', 'stages', 'last_stage_time', 'evaluations')
-PILE = ('time_stepping', 'still_steps', 'held_by', 'rolling_loss', 'contact_reach', 'watches_neighbours',
-        'sleeps_on_ball', 'rapid_impacts', *WARM_START)
-SHOT = ('shot_active', 'moved_by_ball', 'struck', 'struck_at', 'launch', 'launch_spin', 'apex', *LANDING,
-        'bounces', 'ended', 'over_time', 'failed', 'counted_until', 'segments_spent', 'zero_length_segments')
+PILE = (
+    'time_stepping',
+    'still_steps',
+    'held_by',
+    'rolling_loss',
+    'contact_reach',
+    'watches_neighbours',
+    'sleeps_on_ball',
+    'rapid_impacts',
+    *WARM_START,
+)
+SHOT = (
+    'shot_active',
+    'moved_by_ball',
+    'struck',
+    'struck_at',
+    'launch',
+    'launch_spin',
+    'apex',
+    *LANDING,
+    'bounces',
+    'ended',
+    'over_time',
+    'failed',
+    'counted_until',
+    'segments_spent',
+    'zero_length_segments',
+)
 GROUPS = {
     'motion': ('position', 'velocity', 'spin'),
     'contact': ('support', 'material', 'normal'),
@@ -42,8 +80,10 @@ OTHER_GROUPS = {
     'contacts': (*(f'contact.{name}' for name in CONTACT.names), 'work.contacts', 'work.count'),
     'involved': ('work.involved', 'work.involved_index', 'work.count'),
     'tree': ('work.nodes', 'work.leaves', 'work.order', 'work.count'),
-    'work': (*(f'work.{name}' for name in MultiBallWorkspace._fields),
-             *(f'contact.{name}' for name in CONTACT.names)),
+    'work': (
+        *(f'work.{name}' for name in MultiBallWorkspace._fields),
+        *(f'contact.{name}' for name in CONTACT.names),
+    ),
     'log': ('log',),
 }
 RECORDS = {'row': 'contact', 'node': 'work.nodes', 'event': 'log', 'end': None, 'log': 'log'}
@@ -71,7 +111,10 @@ class Kernel:
         self.written.discard(None)
 
     def effect(self, node):
-        """What writing to the expression `node` writes, like ``ball.spin``; None if nothing that counts."""
+        """What writing to the expression `node` writes, like ``ball.spin``.
+
+        None if nothing that counts.
+        """
         while True:
             record, field = field_of(node)
             if field is not None:
@@ -105,8 +148,12 @@ def aliases(function):
     """Local names of a function that stand for a place in something else: the expressions of their places."""
     found = {}
     for node in ast.walk(function):
-        if isinstance(node, ast.Assign) and len(node.targets) == 1 and isinstance(node.targets[0], ast.Name) \
-                and isinstance(node.value, (ast.Subscript, ast.Attribute)):
+        if (
+            isinstance(node, ast.Assign)
+            and len(node.targets) == 1
+            and isinstance(node.targets[0], ast.Name)
+            and isinstance(node.value, (ast.Subscript, ast.Attribute))
+        ):
             found[node.targets[0].id] = node.value
     return found
 
@@ -135,13 +182,20 @@ KERNELS = kernels()
 
 def effects():
     """All that each kernel writes, by its name, with all that it calls."""
-    found = {name: set().union(*(kernel.written for kernel in bodies)) for name, bodies in KERNELS.items()}
+    found = {
+        name: set().union(*(kernel.written for kernel in bodies))
+        for name, bodies in KERNELS.items()
+    }
     changed = True
     while changed:
         changed = False
         for name, bodies in KERNELS.items():
-            more = {effect for kernel in bodies for call in kernel.calls
-                    for effect in of_call(kernel, call, found)} - found[name]
+            more = {
+                effect
+                for kernel in bodies
+                for call in kernel.calls
+                for effect in of_call(kernel, call, found)
+            } - found[name]
             if more:
                 found[name] |= more
                 changed = True
@@ -184,7 +238,9 @@ def meant(name):
     return found
 
 
-CHECKED = sorted(name for name, bodies in KERNELS.items() if bodies[0].text and name not in ('store',))
+CHECKED = sorted(
+    name for name, bodies in KERNELS.items() if bodies[0].text and name not in ('store',)
+)
 
 
 @pytest.mark.parametrize('name', CHECKED)

@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Bags of test/data/bags, one of each kind of play: each shot runs again as it was recorded.
 
-They were recorded by tools/record_bags.py with plain Python. Where the versions and the processor are those
-of the recording the bits are the same, elsewhere all agrees to 1e-9.
+They were recorded by tools/record_bags.py with plain Python. Where the versions and the processor
+are those of the recording the bits are the same, elsewhere all agrees to 1e-9.
 """
+
 from pathlib import Path
 
 import pytest
@@ -18,9 +32,16 @@ BAGS = Path(__file__).parents[1] / 'data' / 'bags'
 KINDS = {  # statuses of the shots, kinds of collision, kinds of input
     'one_ball': ({'at_rest'}, {'bounce'}, {'strike', 'rest'}),
     'several_balls': ({'at_rest'}, {'ball', 'bounce'}, {'strike', 'place', 'rest'}),
-    'gusts': ({'at_rest', 'out_of_bounds'}, {'bounce', 'out_of_bounds'}, {'strike', 'wind', 'rest', 'drop'}),
-    'water_and_out_of_bounds': ({'at_rest', 'water', 'out_of_bounds'}, {'bounce', 'water', 'out_of_bounds'},
-                                {'strike', 'rest', 'drop'}),
+    'gusts': (
+        {'at_rest', 'out_of_bounds'},
+        {'bounce', 'out_of_bounds'},
+        {'strike', 'wind', 'rest', 'drop'},
+    ),
+    'water_and_out_of_bounds': (
+        {'at_rest', 'water', 'out_of_bounds'},
+        {'bounce', 'water', 'out_of_bounds'},
+        {'strike', 'rest', 'drop'},
+    ),
     'pile': ({'at_rest'}, {'ball', 'bounce'}, {'strike', 'place', 'rest'}),
 }
 VERSIONS = ('python', 'numpy', 'processor')  # that the bits of plain Python depend on
@@ -33,7 +54,7 @@ def kind(request):
 
 @pytest.fixture(scope='module')
 def recording(kind):
-    found, = read_bag(BAGS / kind)
+    (found,) = read_bag(BAGS / kind)
     return found
 
 
@@ -58,7 +79,7 @@ def test_each_shot_runs_again_as_it_was_recorded(kind, recording):
 
 
 def test_five_balls_lean_on_each_other():
-    recording, = read_bag(BAGS / 'pile')
+    (recording,) = read_bag(BAGS / 'pile')
     last = [entry for entry in recording.journal if entry['kind'] == 'rest']
     assert sum(entry['state']['position'][2] > 0.0 for entry in last) == 0
     assert len({entry['ball'] for entry in last}) == 5

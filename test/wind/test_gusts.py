@@ -1,13 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The gusts keep their settings, are repeatable, and have no jumps."""
+
 from math import atan2, exp, hypot, pi
 
+from golf_sim_ros.wind.gusts import gust, gust_wind, Gusts, GustSettings, turbulence
+from hypothesis import given
+from hypothesis import settings as hypothesis_settings
+from hypothesis.strategies import floats, integers
 import numpy as np
 import pytest
-from hypothesis import given, settings as hypothesis_settings
-from hypothesis.strategies import floats, integers
-
-from golf_sim_ros.wind.gusts import GustSettings, Gusts, gust, gust_wind, turbulence
 
 BREEZE = GustSettings(speed=4.0, speed_spread=3.0, direction=0.5, direction_spread=1.0)
 TURBULENT = BREEZE._replace(turbulence=0.2)
@@ -77,7 +91,9 @@ def test_a_spread_over_the_speed_gives_calms_but_never_a_wind_from_behind():
 def test_without_spread_every_gust_is_the_wind_that_was_asked_for(direction):
     steady = GustSettings(speed=6.0, speed_spread=0.0, direction=direction, direction_spread=0.0)
     wind = Gusts(steady, 9).wind(1234.5)
-    assert wind == pytest.approx((6.0 * np.cos(direction), 6.0 * np.sin(direction), 0.0), abs=1e-12)
+    assert wind == pytest.approx(
+        (6.0 * np.cos(direction), 6.0 * np.sin(direction), 0.0), abs=1e-12
+    )
 
 
 @given(seed=integers(0, 2**63 - 1), time=floats(-1e6, 2e9))

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A shallow bowl of triangles under a cut in the ground."""
+
 import numpy as np
 
 UNDER = 0.15  # m that the bowl reaches under the rim, where nobody can get
@@ -10,12 +24,15 @@ SIDE = 2  # triangles to a side of the outline
 def bowl(outline, rim, lip, depth):
     """Triangles (n, 3, 3), facing up, of a bowl in `outline`, corners (x, y) that go round counterclockwise.
 
-    It begins `lip` [m] below the height of the `rim` and is `depth` [m] deep from the rim to its middle.
+    It begins `lip` [m] below the height of the `rim` and is `depth` [m] deep from the rim to its
+    middle.
     """
     corners = np.asarray(outline, float)
     middle = corners.mean(0)
     after = np.roll(corners, -1, axis=0)
-    edge = np.concatenate([corners + (after - corners) * i / SIDE for i in range(SIDE)], 1).reshape(-1, 2)
+    edge = np.concatenate(
+        [corners + (after - corners) * i / SIDE for i in range(SIDE)], 1
+    ).reshape(-1, 2)
     reach = np.linalg.norm(edge - middle, axis=1, keepdims=True)
     rings = [middle + share * (edge - middle) for share in RINGS]
     rings[0] = middle + (edge - middle) * (1.0 + UNDER / reach)
@@ -27,5 +44,7 @@ def bowl(outline, rim, lip, depth):
         for i in range(len(edge)):
             j = (i + 1) % len(edge)
             triangles += [(outer[i], outer[j], inner[j]), (outer[i], inner[j], inner[i])]
-    triangles += [(levels[-1][i], levels[-1][(i + 1) % len(edge)], bottom) for i in range(len(edge))]
+    triangles += [
+        (levels[-1][i], levels[-1][(i + 1) % len(edge)], bottom) for i in range(len(edge))
+    ]
     return np.array(triangles)

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """What land is made of: functions of x, y [m] that give heights [m] or shares from 0 to 1, as arrays."""
+
 from math import cos, pi, sin
 from random import Random
 
@@ -52,7 +66,9 @@ def waves(x, y, seed, lengths, count):
     for i in range(count):
         turn, phase = random.uniform(0.0, pi), random.uniform(0.0, 2.0 * pi)
         length = lengths[0] + (lengths[1] - lengths[0]) * i / (count - 1)
-        total = total + length * np.sin(2.0 * pi / length * (cos(turn) * x + sin(turn) * y) + phase)
+        total = total + length * np.sin(
+            2.0 * pi / length * (cos(turn) * x + sin(turn) * y) + phase
+        )
     return total * 2.0 / (count * lengths[1])
 
 
@@ -68,8 +84,13 @@ def ellipse(center, radii, heading=0.0, corners=24):
     """Corners (x, y) of an ellipse."""
     c, s = cos(heading), sin(heading)
     turns = [2.0 * pi * i / corners for i in range(corners)]
-    return [(center[0] + c * radii[0] * cos(t) - s * radii[1] * sin(t),
-             center[1] + s * radii[0] * cos(t) + c * radii[1] * sin(t)) for t in turns]
+    return [
+        (
+            center[0] + c * radii[0] * cos(t) - s * radii[1] * sin(t),
+            center[1] + s * radii[0] * cos(t) + c * radii[1] * sin(t),
+        )
+        for t in turns
+    ]
 
 
 def band(course, half_width, step):

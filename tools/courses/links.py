@@ -1,16 +1,31 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A par 4 between dunes: everything is one height map, painted with zones."""
+
 from random import Random
 
 import numpy as np
 
-from .landform import (along, band, bump, ellipse, grid, inland, plateau, smooth, waves)
+from .landform import along, band, bump, ellipse, grid, inland, plateau, smooth, waves
 from .writing import npy, place, polygon, rectangle, rounded
 
 LOW, HIGH, SPACING = (-20.0, -60.0), (380.0, 60.0), 1.0
 SHORE = 12.0  # m from the map's outline to where the dunes are at their full height
 TEE, HOLE = (0.0, 0.0), (346.0, 9.0)
-WAY = [(0.0, 0.0), (120.0, -6.0), (240.0, 10.0), (330.0, 8.0)]  # the fairway's middle, then the green
+# the fairway's middle, then the green
+WAY = [(0.0, 0.0), (120.0, -6.0), (240.0, 10.0), (330.0, 8.0)]
 TEE_HEIGHT, GREEN_HEIGHT = 3.0, 1.6
 TEEING, TEE_SLOPE = (7.0, 6.0), 14.0
 GREEN, GREEN_RADII, GREEN_SLOPE = (344.0, 8.0), (14.0, 11.0), 12.0
@@ -86,12 +101,16 @@ def green(x, y):
 
 def zones():
     """Materials and polygons, later over earlier."""
-    found = [('fairway', band([(70.0, along(70.0, WAY)), *WAY[1:]], 14.0, 10.0)),
-             ('fairway', ellipse(GREEN, (GREEN_RADII[0] + 3.0, GREEN_RADII[1] + 3.0), corners=32)),
-             ('green', ellipse(GREEN, GREEN_RADII, corners=32)),
-             ('tee', rectangle((-5.0, -4.0), (5.0, 4.0)))]
-    sand = [('sand', ellipse(middle, (SAND * radii[0], SAND * radii[1]), heading))
-            for middle, radii, heading, _ in BUNKERS]
+    found = [
+        ('fairway', band([(70.0, along(70.0, WAY)), *WAY[1:]], 14.0, 10.0)),
+        ('fairway', ellipse(GREEN, (GREEN_RADII[0] + 3.0, GREEN_RADII[1] + 3.0), corners=32)),
+        ('green', ellipse(GREEN, GREEN_RADII, corners=32)),
+        ('tee', rectangle((-5.0, -4.0), (5.0, 4.0))),
+    ]
+    sand = [
+        ('sand', ellipse(middle, (SAND * radii[0], SAND * radii[1]), heading))
+        for middle, radii, heading, _ in BUNKERS
+    ]
     return found + sand
 
 
@@ -104,18 +123,29 @@ def trees(land):
         trunk, crown = round(random.uniform(3.0, 4.5), 1), round(random.uniform(2.0, 3.2), 1)
         z = land[round((y - LOW[1]) / SPACING), round((x - LOW[0]) / SPACING)]
         base, center = place((x, y, z - FOOT)), place((x, y, z + trunk + 0.6 * crown))
-        lines += [f'  - {{shape: cylinder, base: {base}, radius: 0.2, height: {trunk + FOOT:g}, '
-                  'material: wood}',
-                  f'  - {{shape: sphere, center: {center}, radius: {crown:g}, material: leaves}}']
+        lines += [
+            f'  - {{shape: cylinder, base: {base}, radius: 0.2, height: {trunk + FOOT:g}, '
+            'material: wood}',
+            f'  - {{shape: sphere, center: {center}, radius: {crown:g}, material: leaves}}',
+        ]
     return lines
 
 
 def files():
     """Names and bytes."""
     land = heights()
-    painted = [f'  - {{material: {name}, polygon: {polygon(corners)}}}' for name, corners in zones()]
+    painted = [
+        f'  - {{material: {name}, polygon: {polygon(corners)}}}' for name, corners in zones()
+    ]
     content = TEXT.format(
-        tee=list(TEE), hole=list(HOLE), outline=polygon(rectangle(LOW, HIGH)), low=list(LOW), spacing=SPACING,
-        zones='\n'.join(painted), level=POND_LEVEL, pond=polygon(ellipse(POND, POND_RADII)),
-        trees='\n'.join(trees(land)))
+        tee=list(TEE),
+        hole=list(HOLE),
+        outline=polygon(rectangle(LOW, HIGH)),
+        low=list(LOW),
+        spacing=SPACING,
+        zones='\n'.join(painted),
+        level=POND_LEVEL,
+        pond=polygon(ellipse(POND, POND_RADII)),
+        trees='\n'.join(trees(land)),
+    )
     return {'links.yaml': content.encode(), 'links.npy': npy(land)}

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Everything that a course may hold, once, within 60 m."""
+
 from .bowl import bowl
 from .landform import bump, grid, inland
 from .writing import npy, polygon, rectangle, rounded, stl
@@ -58,7 +72,11 @@ def heights():
 
 def files():
     """Names and bytes."""
-    content = TEXT.format(bunker=polygon(BUNKER), green=polygon(rectangle(LOW, HIGH)), low=list(LOW),
-                          spacing=SPACING)
-    return {'playground.yaml': content.encode(), 'playground.npy': npy(heights()),
-            'playground_bunker.stl': stl(bowl(BUNKER, 0.0, LIP, BUNKER_DEPTH))}
+    content = TEXT.format(
+        bunker=polygon(BUNKER), green=polygon(rectangle(LOW, HIGH)), low=list(LOW), spacing=SPACING
+    )
+    return {
+        'playground.yaml': content.encode(),
+        'playground.npy': npy(heights()),
+        'playground_bunker.stl': stl(bowl(BUNKER, 0.0, LIP, BUNKER_DEPTH)),
+    }

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """A green to putt on: a ridge across it, a bowl behind the ridge, and a putt of 3 m that breaks."""
+
 import numpy as np
 
 from .landform import bump, ellipse, grid, inland
@@ -45,6 +59,11 @@ def heights():
 
 def files():
     """Names and bytes."""
-    content = TEXT.format(hole=list(HOLE), outline=polygon(rectangle(LOW, HIGH)), low=list(LOW),
-                          spacing=SPACING, green=polygon(ellipse(MIDDLE, RADII, corners=36)))
+    content = TEXT.format(
+        hole=list(HOLE),
+        outline=polygon(rectangle(LOW, HIGH)),
+        low=list(LOW),
+        spacing=SPACING,
+        green=polygon(ellipse(MIDDLE, RADII, corners=36)),
+    )
     return {'putting_green.yaml': content.encode(), 'putting_green.npy': npy(heights())}

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The course as markers: one list of triangles a material, and what stands on the ground."""
+
 from functools import singledispatch
 
 from geometry_msgs.msg import Point
@@ -12,7 +26,8 @@ from ...drawing.relief import relief
 from ...drawing.zone_triangles import cells, curved, flat, sheet
 from ...physics import geometry, ground_height
 from ...physics.geometry.cup import DEPTH, RADIUS
-from ...physics.geometry.heightmap import Heightmap, corners as corners_of_map
+from ...physics.geometry.heightmap import corners as corners_of_map
+from ...physics.geometry.heightmap import Heightmap
 from ...physics.geometry.mesh import Mesh
 from ...physics.geometry.patch import Patch
 from ...physics.geometry.plane import Plane
@@ -34,9 +49,14 @@ def course_markers(course, frame_id):
     by_material = {}
     for number, shape in enumerate(course.ground):
         for material, pieces in surface(shape, course, number):
-            by_material.setdefault(material, []).extend(corner for piece in pieces for corner in piece)
-    lists = [ground_marker(number, material, corners)
-             for number, (material, corners) in enumerate(by_material.items()) if corners]
+            by_material.setdefault(material, []).extend(
+                corner for piece in pieces for corner in piece
+            )
+    lists = [
+        ground_marker(number, material, corners)
+        for number, (material, corners) in enumerate(by_material.items())
+        if corners
+    ]
     markers = [*lists, *tee(course), *hole(course), *obstacles(course), *water(course)]
     for marker in markers:
         marker.header.frame_id = frame_id
@@ -95,8 +115,10 @@ def rectangle(patch):
     """Four corners of `patch`."""
     _, along, across = frame(patch.normal, patch.heading)
     along, across = 0.5 * patch.length * along, 0.5 * patch.width * across
-    return [np.add(patch.center, turn) for turn in
-            (along + across, across - along, -along - across, along - across)]
+    return [
+        np.add(patch.center, turn)
+        for turn in (along + across, across - along, -along - across, along - across)
+    ]
 
 
 def wall(plane):
@@ -106,16 +128,23 @@ def wall(plane):
 
 def lifted(place, normal, pieces):
     """`pieces`, pairs of a material and triangles of (x, y), with z of the plane through `place`."""
+
     def height(x, y):
         return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
-    return [(material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
-            for material, found in pieces]
+
+    return [
+        (material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
+        for material, found in pieces
+    ]
 
 
 def covered(shape, course, number):
     """Polygons where `shape` is not seen: its cuts, and later patches in the same plane."""
-    later = [patch for patch in course.ground[number + 1:]
-             if isinstance(patch, Patch) and not patch.cut and coplanar(shape, patch)]
+    later = [
+        patch
+        for patch in course.ground[number + 1 :]
+        if isinstance(patch, Patch) and not patch.cut and coplanar(shape, patch)
+    ]
     return [*shape.cut, *([tuple(corner[:2]) for corner in rectangle(patch)] for patch in later)]
 
 
@@ -184,8 +213,12 @@ def water(course):
         return []
     made = marker('water', 0, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), BLUE)
     made.color.a = CLEAR
-    made.points = points((x, y, pond.level) for pond in course.water
-                         for triangle in triangles(pond.polygon, pond.cut) for x, y in triangle)
+    made.points = points(
+        (x, y, pond.level)
+        for pond in course.water
+        for triangle in triangles(pond.polygon, pond.cut)
+        for x, y in triangle
+    )
     return [made]
 
 
@@ -198,7 +231,9 @@ def obstacle(number, shape):
     """Marker of a cylinder or sphere."""
     across = 2 * shape.radius
     if isinstance(shape, Sphere):
-        made = marker('obstacles', number, Marker.SPHERE, (across, across, across), shape.material.color)
+        made = marker(
+            'obstacles', number, Marker.SPHERE, (across, across, across), shape.material.color
+        )
         put(made, *shape.center)
     else:
         size = (across, across, shape.height)

@@ -1,16 +1,30 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """The model of the report "Golf Without Friends" (KTH 2019), as a baseline to measure against.
 
-Linear drag; wind as a force that grows with height; a ball is moved by semi-implicit Euler at 50 Hz
-and pushed out of whatever it has got into; an impact loses a percentage of the spin, which
+Linear drag; wind as a force that grows with height; a ball is moved by semi-implicit Euler at 50
+Hz and pushed out of whatever it has got into; an impact loses a percentage of the spin, which
 friction never turns into motion or back; sand absorbs everything. The report gives no numbers for
 drag, wind and loss of spin: those below are estimates.
 """
+
 from typing import NamedTuple
 
 import numpy as np
 
-from ..effects import Scene, flight_rates, protocol
+from ..effects import flight_rates, protocol, Scene
 from ..effects.ferguson_lift import record as lift
 from ..effects.gravity import Gravity
 from ..effects.linear_drag import LinearDrag
@@ -18,7 +32,7 @@ from ..engine.engines import best
 from ..geometry import surfaces
 from ..integrators.euler import SemiImplicitEuler
 from ..jit import borrowed, entry, kernel
-from ..mechanics.vector import ZERO, add_scaled, dot, length, store, scale, tangential, load
+from ..mechanics.vector import add_scaled, dot, length, load, scale, store, tangential, ZERO
 from ..properties.material import restitution
 from ..scene import kernel_model as model_
 from ..scene.kernel_model import Limits
@@ -26,7 +40,7 @@ from ..scene.presets import Preset
 from ..simulation import checked_gusts, checked_strikes
 from ..state.ball import FLIGHT
 from ..state.transitions import come_to_rest, take_off
-from ..trajectory.shot_record import record_landing, begin_shot
+from ..trajectory.shot_record import begin_shot, record_landing
 from ..world import World
 
 REPORT_STEP = 1 / 50  # s, Unity's default physics step
@@ -76,7 +90,9 @@ def play_report_2019(course, velocities, spins, wind=ZERO):
     world = World(course)
     # Sand is what gives nothing back.
     absorbs = np.array([m.restitution.e0 == 0.0 for m in model_.materials(course)])
-    ends = best(_play)(model_.build_model(course, records, REPORT_2019), world._balls, strikes, absorbs)
+    ends = best(_play)(
+        model_.build_model(course, records, REPORT_2019), world._balls, strikes, absorbs
+    )
     return ends['landed_at'], ends['position']
 
 

@@ -1,17 +1,38 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Time of impact of two balls: their gap is convex in their relative position, as with ground."""
+
 from math import sqrt
 
-from ..jit import kernel, shared
-from ..mechanics.vector import UP, ZERO, add, dot, length, sub, unit, load
-from ..state.ball import HOLED, BALL_IMPACT, STEPPED, REST, STEP_END, moves
-from ..trajectory import segment
 from . import ball_interactions
 from .broad_phase import next_node
-from .conservative_advancement import (MOST_ADVANCES, SHORT_BOX, TANGENTIAL, TOUCH, swept_box, is_long,
-                                       advancement_bound)
+from .conservative_advancement import (
+    advancement_bound,
+    is_long,
+    MOST_ADVANCES,
+    SHORT_BOX,
+    swept_box,
+    TANGENTIAL,
+    TOUCH,
+)
 from .ground_contact import RESTING_GAP
 from .workspace import MultiBallWorkspace
+from ..jit import kernel, shared
+from ..mechanics.vector import add, dot, length, load, sub, unit, UP, ZERO
+from ..state.ball import BALL_IMPACT, HOLED, moves, REST, STEP_END, STEPPED
+from ..trajectory import segment
 
 MANY_STEPPED = 6  # time-stepped balls in a swept box that make it worth halving the segment
 RESTING_APPROACH = 0.02  # m/s of approach: what gravity gives in a time step
@@ -20,7 +41,11 @@ RESTING_APPROACH = 0.02  # m/s of approach: what gravity gives in a time step
 @kernel
 def position_at(ball, now):
     """Position of the ball at `now`, on its present segment."""
-    return segment.position(ball, now - ball['begin']) if moves(ball['phase']) else load(ball['position'])
+    return (
+        segment.position(ball, now - ball['begin'])
+        if moves(ball['phase'])
+        else load(ball['position'])
+    )
 
 
 @kernel
@@ -61,8 +86,9 @@ def acceleration_deviation(ball, acceleration):
 def cannot_touch(here, other, bend, radius, now, until):
     """Whether a ball whose position and velocity are `here` can't touch another one from `now` to `until`.
 
-    The gap stays above a concave parabola (see conservative_advancement.py), lowest at one of its ends.
-    Without a division: this runs for every pair of the broad phase, and is true of nearly all.
+    The gap stays above a concave parabola (see conservative_advancement.py), lowest at one of its
+    ends. Without a division: this runs for every pair of the broad phase, and is true of nearly
+    all.
     """
     place, velocity = here
     apart = sub(place, position_at(other, now))
@@ -89,9 +115,12 @@ def separation_time_of_balls(a, b, radius, now, until):
 
 @kernel
 def time_of_impact_of_balls(a, b, bend, radius, begin, until):
-    """Time of impact of two balls between `begin` and `until`, or a safe time; whether it is an impact.
+    """Time of impact of two balls between `begin` and `until`, or a safe time.
 
-    `bend` bounds their relative acceleration: gravity cancels, so of two balls in flight it is small.
+    Whether it is an impact.
+
+    `bend` bounds their relative acceleration: gravity cancels, so of two balls in flight it is
+    small.
     """
     now = begin
     for _ in range(MOST_ADVANCES):
@@ -147,8 +176,8 @@ def _interrupt_segments(work, balls, i, radius, now):
 def interrupt_segments_at(work, balls, i, radius, now):
     """End the segments of other balls that hit ball `i`, which rests now.
 
-    They were planned while it still moved, and tested against it only up to the end of its segment. Writes
-    end, ending, target, segment_ends.
+    They were planned while it still moved, and tested against it only up to the end of its
+    segment. Writes end, ending, target, segment_ends.
     """
     ball = balls[i]
     place = load(ball['position'])
@@ -185,7 +214,10 @@ def is_over_many_stepped(work, balls, low, high):
 
 @shared
 def first_ball_impact(work, balls, i, radius, now):
-    """Time of impact of ball `i`'s segment with another ball, or a safe time; the ball; whether they hit."""
+    """Time of impact of ball `i`'s segment with another ball, or a safe time.
+
+    The ball; whether they hit.
+    """
     ball = balls[i]
     until = ball['end']
     if within_contact_reach(ball) and not ball['watches_neighbours']:
@@ -195,7 +227,8 @@ def first_ball_impact(work, balls, i, radius, now):
     while is_long(low, high, SHORT_BOX * radius) and is_over_many_stepped(work, balls, low, high):
         until = now + 0.5 * (until - now)
         low, high = swept_box(ball, 0.0, until - now, radius)
-    # Found once for all pairs: of each other ball only its deviation from that acceleration is needed.
+    # Found once for all pairs: of each other ball only its deviation from that acceleration is
+    # needed.
     usual, stray = acceleration_at_start(ball)
     here = position_at(ball, now), velocity_at(ball, now)
     best = until
@@ -204,7 +237,8 @@ def first_ball_impact(work, balls, i, radius, now):
     at = next_node(work, 0, low, high)
     while at >= 0:
         j = work.nodes[at]['ball']
-        # Contacts of balls that are stepped together, or with a sleeper, belong to the contact solver.
+        # Contacts of balls that are stepped together, or with a sleeper, belong to the contact
+        # solver.
         other = balls[j]
         is_there = j != i and other['phase'] != HOLED
         if is_there and not is_left_to_time_stepping(ball, other, radius, now):

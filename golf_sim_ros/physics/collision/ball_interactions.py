@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Laws of ball against ball. Where there is one ball, nothing of them is in the machine code.
 
-The engine's workspace is a record: its type says whether balls touch each other. These laws have bodies for
-`MultiBallWorkspace`; for `SingleBallWorkspace` the defaults hold.
+The engine's workspace is a record: its type says whether balls touch each other. These laws have
+bodies for `MultiBallWorkspace`; for `SingleBallWorkspace` the defaults hold.
 """
+
 from typing import NamedTuple
 
 import numpy as np
@@ -16,11 +30,11 @@ class SingleBallWorkspace(NamedTuple):
 
     ``segment_ends``: when each ball's segment ends; ``involved``: balls of the event at hand;
     ``involved_index``: index of each ball among those, or -1; ``contacts``: rows of `CONTACT`;
-    ``contact_counts``: active contacts of each ball; ``velocity_change`` [m/s] by the extrapolated impulses;
-    ``position_change`` [m] that corrects penetration; ``motion_before``: velocity and spin before an impact;
-    ``solved_motion``: the same of a time step; ``count``: of involved balls, of contacts, of segments since
-    the tree was built, and whether any ball may be asleep on another; ``spent``: cycles by stage, empty
-    unless they are measured.
+    ``contact_counts``: active contacts of each ball; ``velocity_change`` [m/s] by the extrapolated
+    impulses; ``position_change`` [m] that corrects penetration; ``motion_before``: velocity and
+    spin before an impact; ``solved_motion``: the same of a time step; ``count``: of involved
+    balls, of contacts, of segments since the tree was built, and whether any ball may be asleep on
+    another; ``spent``: cycles by stage, empty unless they are measured.
     """
 
     segment_ends: np.ndarray
@@ -48,7 +62,10 @@ def update_tree(work, balls, i, radius):
 
 @generic
 def first_ball_contact(work, balls, i, radius, now):
-    """First time at which ball `i`'s segment may touch a ball; which ball; whether it is an impact."""
+    """First time at which ball `i`'s segment may touch a ball.
+
+    Which ball; whether it is an impact.
+    """
     return balls[i]['end'], -1, False
 
 
@@ -78,7 +95,10 @@ def resolve_ball_impact(work, land, balls, i, now, log):
 
 @generic
 def step_together(work, land, balls, i, now):
-    """Whether ball `i` is time-stepped with others; solves their step if one is due. Writes ball, work."""
+    """Whether ball `i` is time-stepped with others; solves their step if one is due.
+
+    Writes ball, work.
+    """
     return False
 
 

@@ -1,10 +1,30 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Time at which a ball in contact crosses a border in plan: an outline of a surface or of a zone."""
+
+from .conservative_advancement import advancement_bound, MOST_ADVANCES, TOUCH
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import add, add_scaled, dot, length, sub, load
-from ..trajectory.segment import greatest_acceleration, least_acceleration, position, extent_along, velocity
-from .conservative_advancement import MOST_ADVANCES, TOUCH, advancement_bound
+from ..mechanics.vector import add, add_scaled, dot, length, load, sub
+from ..trajectory.segment import (
+    extent_along,
+    greatest_acceleration,
+    least_acceleration,
+    position,
+    velocity,
+)
 
 
 @shared
@@ -26,10 +46,12 @@ def first_border_crossing(ground, ball, radius, until):
         dx = -radius * ball['normal'][0]
         dy = -radius * ball['normal'][1]
         room = border['radius']
-        if (x[1] + dx < min(border['start'][0], end_x) - room
-                or x[0] + dx > max(border['start'][0], end_x) + room
-                or y[1] + dy < min(border['start'][1], end_y) - room
-                or y[0] + dy > max(border['start'][1], end_y) + room):
+        if (
+            x[1] + dx < min(border['start'][0], end_x) - room
+            or x[0] + dx > max(border['start'][0], end_x) + room
+            or y[1] + dy < min(border['start'][1], end_y) - room
+            or y[0] + dy > max(border['start'][1], end_y) + room
+        ):
             continue
         time = border_crossing_time(border, ball, (dx, dy, 0.0), bend, best)
         if time < best:
@@ -37,7 +59,9 @@ def first_border_crossing(ground, ball, radius, until):
             crosses = True
     for i in range(surfaces.limits(ground, ball['support'])):
         point, inward = surfaces.limit(ground, ball['support'], i)
-        time = limit_crossing_time(ball, add_scaled(point, radius, load(ball['normal'])), inward, best)
+        time = limit_crossing_time(
+            ball, add_scaled(point, radius, load(ball['normal'])), inward, best
+        )
         if time < best:
             best = time
             crosses = True
@@ -72,7 +96,8 @@ def border_crossing_time(border, ball, shift, bend, until):
     start = add(position(ball, 0.0), shift)
     gap, direction = surfaces.distance_in_plan(border, start[0], start[1])
     if gap <= 2 * TOUCH:
-        # Some 10 nm past the border, or the next segment would end on it again, and so on without end.
+        # Some 10 nm past the border, or the next segment would end on it again, and so on without
+        # end.
         speed = length(velocity(ball, 0.0))
         time = 1e-8 / (speed + 1e-8)
         if time >= until:

@@ -1,8 +1,21 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Broad phase: which balls may touch, by a tree of axis-aligned bounding boxes (AABB tree).
 
-Every ball's segment has a swept box. The boxes are the leaves of a binary tree, stored depth first, so
-that a query needs no stack: a node whose box is missed is skipped with all below it::
+Every ball's segment has a swept box. The boxes are the leaves of a binary tree, stored depth
+first, so that a query needs no stack: a node whose box is missed is skipped with all below it::
 
         0                nodes  0 1 2 3 4     node 1 has the leaves 2 and 3;
        / \\               skip   5 4 3 4 5     missing 1, go on at 4
@@ -10,15 +23,16 @@ that a query needs no stack: a node whose box is missed is skipped with all belo
      / \\
     2   3
 
-A new segment of a ball refits the boxes above its leaf; after as many segments as there are balls the tree is
-rebuilt, for refitting keeps balls together that have moved apart.
+A new segment of a ball refits the boxes above its leaf; after as many segments as there are balls
+the tree is rebuilt, for refitting keeps balls together that have moved apart.
 """
-from ..jit import kernel, shared
-from ..mechanics.vector import add_scaled, store, load
-from ..state.ball import STEPPED, moves
+
 from . import ball_interactions
 from .conservative_advancement import swept_box
-from .workspace import TREE_AGE, ASLEEP, MultiBallWorkspace
+from .workspace import ASLEEP, MultiBallWorkspace, TREE_AGE
+from ..jit import kernel, shared
+from ..mechanics.vector import add_scaled, load, store
+from ..state.ball import moves, STEPPED
 
 LEAF_MARGIN = 1e-3  # m around the box of a time-stepped ball, which seldom goes far: a fat AABB
 
@@ -41,7 +55,11 @@ def segment_box(ball, radius, room):
     # Straight segments: the ends bound them.
     half = (radius + room, radius + room, radius + room)
     here = load(ball['origin']) if moves(ball['phase']) else load(ball['position'])
-    there = add_scaled(here, 1.0, load(ball['position_coefficients'][5])) if moves(ball['phase']) else here
+    there = (
+        add_scaled(here, 1.0, load(ball['position_coefficients'][5]))
+        if moves(ball['phase'])
+        else here
+    )
     low = min(here[0], there[0]), min(here[1], there[1]), min(here[2], there[2])
     high = max(here[0], there[0]), max(here[1], there[1]), max(here[2], there[2])
     return add_scaled(low, -1.0, half), add_scaled(high, 1.0, half)
@@ -66,8 +84,10 @@ def leaf_serves(ball, node, radius):
     # Neither too small, which would miss contacts, nor so large that queries find balls far away.
     low, high = segment_box(ball, radius, 0.0)
     for k in range(3):
-        if not (0.0 <= low[k] - node['low'][k] <= 3.0 * LEAF_MARGIN
-                and 0.0 <= node['high'][k] - high[k] <= 3.0 * LEAF_MARGIN):
+        if not (
+            0.0 <= low[k] - node['low'][k] <= 3.0 * LEAF_MARGIN
+            and 0.0 <= node['high'][k] - high[k] <= 3.0 * LEAF_MARGIN
+        ):
             return False
     return True
 
@@ -85,7 +105,10 @@ def refit(work, i):
 
 @shared
 def rebuild(work, balls, radius):
-    """Build the tree top down, with median splits of the longest axis. Writes nodes, leaves, order, count."""
+    """Build the tree top down, with median splits of the longest axis.
+
+    Writes nodes, leaves, order, count.
+    """
     work.count[TREE_AGE] = 0
     for i in range(len(balls)):
         work.order[i] = i
@@ -186,8 +209,14 @@ def next_node(work, at, low, high):
     """First leaf from node `at` on whose box overlaps that from `low` to `high`, or -1."""
     while at < len(work.nodes):
         node = work.nodes[at]
-        if (node['low'][0] > high[0] or node['high'][0] < low[0] or node['low'][1] > high[1]
-                or node['high'][1] < low[1] or node['low'][2] > high[2] or node['high'][2] < low[2]):
+        if (
+            node['low'][0] > high[0]
+            or node['high'][0] < low[0]
+            or node['low'][1] > high[1]
+            or node['high'][1] < low[1]
+            or node['low'][2] > high[2]
+            or node['high'][2] < low[2]
+        ):
             at = node['skip']
         elif node['ball'] >= 0:
             return at

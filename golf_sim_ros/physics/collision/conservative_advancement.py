@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Conservative advancement: continuous collision detection that can't tunnel.
 
 A part of the ground is convex, so the gap to it is a convex function of position. Along a path of
@@ -6,18 +19,20 @@ acceleration at most A it therefore stays above the parabola
 
     gap(t + s) >= gap(t) + gap'(t) s - A s^2 / 2
 
-and it is safe to advance to that parabola's root. It is Newton's method from the safe side: convergence is
-quadratic, and the time of impact is never overstepped. (Mirtich, Impulse-based dynamic simulation of rigid
-body systems, 1996, introduced the name.)
+and it is safe to advance to that parabola's root. It is Newton's method from the safe side:
+convergence is quadratic, and the time of impact is never overstepped. (Mirtich, Impulse-based
+dynamic simulation of rigid body systems, 1996, introduced the name.)
 """
+
 from math import sqrt
 
 from ..jit import kernel
-from ..trajectory.segment import greatest_acceleration, position, extent_along
+from ..trajectory.segment import extent_along, greatest_acceleration, position
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
 TANGENTIAL = 1e-9  # m/s: a gap whose rate is smaller counts as constant
-RISING = 1e-12  # m/s: more than the rounding error of a rate, and less than what a nanosecond's gravity gives
+# m/s: more than the rounding error of a rate, and less than what a nanosecond's gravity gives
+RISING = 1e-12
 PLAIN_APPROACH = 0.01  # m/s: a faster approach from a microsecond away is sure to be an impact
 NEVER = 1e300  # s: of a gap that does not close
 MOST_ADVANCES = 200  # then the ball stops where it is safe, and looks again from there
@@ -46,13 +61,18 @@ def swept_box(ball, begin, end, radius):
         x = extent_along(ball, 0)
         y = extent_along(ball, 1)
         z = extent_along(ball, 2)
-        return ((x[0] - radius, y[0] - radius, z[0] - radius), (x[1] + radius, y[1] + radius, z[1] + radius))
+        return (
+            (x[0] - radius, y[0] - radius, z[0] - radius),
+            (x[1] + radius, y[1] + radius, z[1] + radius),
+        )
     a = position(ball, begin)
     b = position(ball, end)
     # A path of acceleration at most A strays from its chord by at most A t^2 / 8.
     room = radius + 0.125 * greatest_acceleration(ball) * (end - begin) * (end - begin)
-    return ((min(a[0], b[0]) - room, min(a[1], b[1]) - room, min(a[2], b[2]) - room),
-            (max(a[0], b[0]) + room, max(a[1], b[1]) + room, max(a[2], b[2]) + room))
+    return (
+        (min(a[0], b[0]) - room, min(a[1], b[1]) - room, min(a[2], b[2]) - room),
+        (max(a[0], b[0]) + room, max(a[1], b[1]) + room, max(a[2], b[2]) + room),
+    )
 
 
 @kernel

@@ -1,43 +1,82 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Time of impact of a ball's segment with the ground.
 
-Parts of the ground are convex, or have concave regions of bounded curvature: conservative advancement along
-the segment never steps over a contact with one (see conservative_advancement.py). Where the curvature of
-hollows is at most K, the gap's rate can fall by another 2 K v^2 as long as the ball's centre is nearer than
-1 / (2 K); from further away the ball's speed bounds how fast a gap closes.
+Parts of the ground are convex, or have concave regions of bounded curvature: conservative
+advancement along the segment never steps over a contact with one (see
+conservative_advancement.py). Where the curvature of hollows is at most K, the gap's rate can fall
+by another 2 K v^2 as long as the ball's centre is nearer than 1 / (2 K); from further away the
+ball's speed bounds how fast a gap closes.
 
-Where the swept box of a segment overlaps many parts, the segment is tested stretch by stretch, each halved
-until its box overlaps few: only parts near the path are tested.
+Where the swept box of a segment overlaps many parts, the segment is tested stretch by stretch,
+each halved until its box overlaps few: only parts near the path are tested.
 """
+
+from .conservative_advancement import (
+    advancement_bound,
+    is_long,
+    MOST_ADVANCES,
+    NEVER,
+    PLAIN_APPROACH,
+    RISING,
+    SHORT_BOX,
+    swept_box,
+    TANGENTIAL,
+    TOUCH,
+)
 from ..geometry import surfaces
 from ..geometry.plane_patch import FLUSH
 from ..jit import kernel, shared
 from ..mechanics.vector import add_scaled, dot, length, load
 from ..state.ball import NO_PART
-from ..trajectory.segment import (acceleration_bounds, control_point, greatest_acceleration, greatest_speed,
-                                  plane_gap, plane_gap_coefficients, position, velocity)
-from .conservative_advancement import (MOST_ADVANCES, NEVER, PLAIN_APPROACH, RISING, SHORT_BOX, TANGENTIAL,
-                                       TOUCH, swept_box, is_long, advancement_bound)
+from ..trajectory.segment import (
+    acceleration_bounds,
+    control_point,
+    greatest_acceleration,
+    greatest_speed,
+    plane_gap,
+    plane_gap_coefficients,
+    position,
+    velocity,
+)
+
 HOLDING_GAP = 1e-7  # m: contact margin of a wedged ball
 RESTING_GAP = 5e-5  # m: contact margin of a time-stepped ball, to the ground and to balls
-GENTLE_APPROACH = 0.1  # m/s of approach: after a slower impact with a time-stepped ball a ball joins it
+# m/s of approach: after a slower impact with a time-stepped ball a ball joins it
+GENTLE_APPROACH = 0.1
 SAME_DISTANCE = 1e-9  # m: distances that differ less are those of the same point
-ESCAPE = 1e-9  # m: least advance of a ball that leaves a concave part, which its bound would hold back
-MANY_STEPS = 100  # advances after which the bound on the speed over the whole segment is taken for too rough
+# m: least advance of a ball that leaves a concave part, which its bound would hold back
+ESCAPE = 1e-9
+# advances after which the bound on the speed over the whole segment is taken for too rough
+MANY_STEPS = 100
 LOOK = 1.0 / 32.0  # work of one query of a part, over that of planning a segment
-FEW_STEPS = 4  # advances after which it pays to test whether one face is nearest to the whole segment
+# advances after which it pays to test whether one face is nearest to the whole segment
+FEW_STEPS = 4
 MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
 LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner counts as having left it
 NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
-OPEN, CLEAR, HIT = range(3)  # of a gap of zero: what comes next is open, it is clear for a while, or hit
+# of a gap of zero: what comes next is open, it is clear for a while, or hit
+OPEN, CLEAR, HIT = range(3)
 
 
 @kernel
 def sees_one_normal(ground, part, ball, normal):
     """Whether the contact normal of a convex `part` is the same `normal` along the whole segment."""
-    # The points that see one face along its normal form a convex region: it contains a curve whose control
-    # points it contains.
+    # The points that see one face along its normal form a convex region: it contains a curve whose
+    # control points it contains.
     for i in range(6):
         _, seen = surfaces.nearest(ground, part, control_point(ball, i))
         if dot(seen, normal) < 1.0 - 1e-15:
@@ -47,7 +86,10 @@ def sees_one_normal(ground, part, ball, normal):
 
 @kernel
 def plane_gap_bounds(ground, part, ball, radius):
-    """Bernstein coefficients of the gap to `part` of one normal; bounds on how its rate falls, and rises."""
+    """Bernstein coefficients of the gap to `part` of one normal.
+
+    Bounds on how its rate falls, and rises.
+    """
     distance, normal = surfaces.nearest(ground, part, control_point(ball, 0))
     over = plane_gap_coefficients(ball, normal, distance - radius)
     falls, rises = acceleration_bounds(over, ball['span'])
@@ -57,8 +99,8 @@ def plane_gap_bounds(ground, part, ball, radius):
 @kernel
 def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
     """`advancement_bound` to a part with hollows of that curvature, `distance` from the ball's centre."""
-    # The ball's speed bounds the advance from anywhere; the parabola only within the tube of unique nearest
-    # points, and so only until the ball may have left that.
+    # The ball's speed bounds the advance from anywhere; the parabola only within the tube of
+    # unique nearest points, and so only until the ball may have left that.
     sure = (gap if gap > TOUCH else ESCAPE) / (fastest + 1e-9)
     tube = 0.5 / hollow - distance
     if tube <= 0.0:
@@ -71,8 +113,8 @@ def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
 def separation_time(ground, part, ball, radius, until):
     """Time by which a ball in tangential contact with `part` has separated, or 0 if it presses on.
 
-    A ball that flies off a flat ridge rises by less than TOUCH before it comes down beyond: up to the last
-    time at which it still rose, it is clear.
+    A ball that flies off a flat ridge rises by less than TOUCH before it comes down beyond: up to
+    the last time at which it still rose, it is clear.
     """
     time = 1e-9
     rising = 0.0
@@ -95,9 +137,9 @@ def separation_time(ground, part, ball, radius, until):
 def penetration_exit_time(ground, part, ball, radius, when, facing):
     """Safe time [s] for which a ball in a cut of `part`, or behind a one-sided sheet, has not left it yet.
 
-    There the gap is negative, and no impact. Along a straight line a convex gap stays below its chord, and
-    the path strays from that line by at most A s^2 / 2. A cut reaches up to its outline, however near to the
-    plane the ball moves. `when` and `facing` are as in `touch`.
+    There the gap is negative, and no impact. Along a straight line a convex gap stays below its
+    chord, and the path strays from that line by at most A s^2 / 2. A cut reaches up to its
+    outline, however near to the plane the ball moves. `when` and `facing` are as in `touch`.
     """
     time, until = when
     gap, _, bend, hollow = facing
@@ -117,17 +159,19 @@ def penetration_exit_time(ground, part, ball, radius, when, facing):
 
 @kernel
 def touch(ground, part, ball, radius, when, facing):
-    """Tell what a gap to `part` of zero comes to: OPEN, CLEAR until a later time, or HIT; that time, or now.
+    """Tell what a gap to `part` of zero comes to: OPEN, CLEAR until a later time, or HIT.
 
-    `when`: the time of it, and that up to which it is asked; `facing`: the gap, its rate, by how much that
-    falls a second, and the curvature of hollows.
+    That time, or now.
+
+    `when`: the time of it, and that up to which it is asked; `facing`: the gap, its rate, by how
+    much that falls a second, and the curvature of hollows.
     """
     time, until = when
     rate = facing[1]
     if not surfaces.touchable(ground, part, position(ball, time)):
         return time + penetration_exit_time(ground, part, ball, radius, when, facing), CLEAR
-    # An edge's place is exact to FLUSH, so its normal to FLUSH over the radius: a rate within that may be of
-    # either sign, and `separation_time` tells which.
+    # An edge's place is exact to FLUSH, so its normal to FLUSH over the radius: a rate within that
+    # may be of either sign, and `separation_time` tells which.
     grazing = TANGENTIAL + FLUSH / radius * length(velocity(ball, time))
     if rate < -grazing or time > 0.0 and rate <= 0.0:
         return time, HIT
@@ -139,7 +183,9 @@ def touch(ground, part, ball, radius, when, facing):
 
 @kernel
 def time_of_impact(ground, part, ball, radius, begin, until):
-    """Time of impact with `part` between `begin` and `until`, or a safe time; whether it is an impact.
+    """Time of impact with `part` between `begin` and `until`, or a safe time.
+
+    Whether it is an impact.
 
     Writes segments_spent.
     """
@@ -164,7 +210,9 @@ def time_of_impact(ground, part, ball, radius, begin, until):
             gap = distance - radius
             rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
-            time, what = touch(ground, part, ball, radius, (time, until), (gap, rate, bend, hollow))
+            time, what = touch(
+                ground, part, ball, radius, (time, until), (gap, rate, bend, hollow)
+            )
             if what == HIT:
                 return time, True
             if what == CLEAR:
@@ -182,9 +230,14 @@ def time_of_impact(ground, part, ball, radius, begin, until):
                 over, bend, rises = plane_gap_bounds(ground, part, ball, radius)
             sure = advancement_bound(gap, rate, bend)
             time += sure
-            if (max(bend, rises) * sure * sure < TOUCH and rate < -PLAIN_APPROACH and time < until
-                    and surfaces.touchable(ground, part, position(ball, time))):
-                # Another advance would change less than TOUCH: the gap is within bend s^2 / 2 of zero by now.
+            if (
+                max(bend, rises) * sure * sure < TOUCH
+                and rate < -PLAIN_APPROACH
+                and time < until
+                and surfaces.touchable(ground, part, position(ball, time))
+            ):
+                # Another advance would change less than TOUCH: the gap is within bend s^2 / 2 of
+                # zero by now.
                 return time, True
         if time >= until:
             return until, False
@@ -193,11 +246,14 @@ def time_of_impact(ground, part, ball, radius, begin, until):
 
 @shared
 def first_ground_contact(ground, ball, radius, until, on):
-    """Time of impact of the segment with the ground, or a safe time; the part; whether it is an impact.
+    """Time of impact of the segment with the ground, or a safe time.
 
-    `on` is what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane under it, where
-    coplanar surfaces, and edges hit tangentially, are seams and no obstacles; ON_EDGE the edge that supports
-    it; ON_CURVE the smooth surface; WEDGED all that holds it. Writes segments_spent.
+    The part; whether it is an impact.
+
+    `on` is what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane under
+    it, where coplanar surfaces, and edges hit tangentially, are seams and no obstacles; ON_EDGE
+    the edge that supports it; ON_CURVE the smooth surface; WEDGED all that holds it. Writes
+    segments_spent.
     """
     begin = 0.0
     stretch = until
@@ -284,8 +340,8 @@ def is_ignored(ground, part, ball, radius, until, on):
 def holds_wedged(ground, part, ball, radius):
     """Whether `part` is within the contact margin of a wedged or time-stepped ball, and so no obstacle.
 
-    It still is one to a time-stepped ball that another has just hit: that approaches too fast to wait for
-    the next time step.
+    It still is one to a time-stepped ball that another has just hit: that approaches too fast to
+    wait for the next time step.
     """
     distance, normal = surfaces.nearest(ground, part, load(ball['position']))
     if not ball['time_stepping']:
@@ -311,7 +367,8 @@ def is_same_edge(ground, part, ball, until):
 def edge_duration(ground, part, ball, until):
     """Time, `until` at most, for which `part` shares the supporting edge; 0 if not at all.
 
-    Two faces share the edge that a ball rolls around: a face is no obstacle before the ball leaves the edge.
+    Two faces share the edge that a ball rolls around: a face is no obstacle before the ball leaves
+    the edge.
     """
     while until > LEAST_EDGE_TIME:
         if is_same_edge(ground, part, ball, until):

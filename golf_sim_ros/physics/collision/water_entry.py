@@ -1,19 +1,42 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Time at which a ball's centre enters water, along a segment, by conservative advancement.
 
-A ball is in water if its centre is below the level and inside the outline in plan. Advancing is safe as long
-as either condition must still fail.
+A ball is in water if its centre is below the level and inside the outline in plan. Advancing is
+safe as long as either condition must still fail.
 """
+
+from .conservative_advancement import advancement_bound, MOST_ADVANCES, TANGENTIAL, TOUCH
 from ..geometry.polygon import beside_region
 from ..jit import kernel, shared
-from ..mechanics.vector import UP, length
-from ..trajectory.segment import greatest_acceleration, least_acceleration, position, extent_along, velocity
-from .conservative_advancement import MOST_ADVANCES, TANGENTIAL, TOUCH, advancement_bound
+from ..mechanics.vector import length, UP
+from ..trajectory.segment import (
+    extent_along,
+    greatest_acceleration,
+    least_acceleration,
+    position,
+    velocity,
+)
 
 
 @shared
 def first_water_entry(waters, ball, until):
-    """First time, at most `until`, at which the segment enters water; number of the water, from 1, or 0."""
+    """First time, at most `until`, at which the segment enters water.
+
+    Number of the water, from 1, or 0.
+    """
     best = until
     who = 0
     lowest, _ = extent_along(ball, 2)
@@ -35,9 +58,14 @@ def water_entry_time(waters, i, ball, until):
     for _ in range(MOST_ADVANCES):
         place = position(ball, time)
         # The later of two safe times: both conditions have to hold at once.
-        sure = max(time_above(place[2] - waters.levels[i], velocity(ball, time)[2], falling),
-                   time_outside(beside_region(waters.outlines, i, place[0], place[1]),
-                                length(velocity(ball, time)), bend))
+        sure = max(
+            time_above(place[2] - waters.levels[i], velocity(ball, time)[2], falling),
+            time_outside(
+                beside_region(waters.outlines, i, place[0], place[1]),
+                length(velocity(ball, time)),
+                bend,
+            ),
+        )
         if sure <= 0.0:
             return time, True
         time += max(sure, 1e-12)
@@ -48,7 +76,10 @@ def water_entry_time(waters, i, ball, until):
 
 @kernel
 def time_above(gap, rate, falling):
-    """Safe time [s] for which a centre `gap` over the level stays above; 0 below, or on it and sinking."""
+    """Safe time [s] for which a centre `gap` over the level stays above.
+
+    0 below, or on it and sinking.
+    """
     if gap < -TOUCH or gap <= TOUCH and rate < -TANGENTIAL:
         return 0.0
     return advancement_bound(gap, max(rate, 0.0) if gap <= TOUCH else rate, falling)

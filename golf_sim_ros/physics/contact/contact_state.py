@@ -1,13 +1,32 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Contact mode of a ball, whether it slides, rolls, pivots or rests, and its support."""
+
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
-from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, unit, load
+from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, unit, ZERO
 from ..state.ball import ROLL, SLIDE
 from ..state.transitions import begin_rolling, begin_sliding, come_to_rest
-from ..trajectory.equations_of_motion import LEAST_SPEED, rolling_deceleration, material_under, rolling_needs
+from ..trajectory.equations_of_motion import (
+    LEAST_SPEED,
+    material_under,
+    rolling_deceleration,
+    rolling_needs,
+)
 
 
 @kernel
@@ -58,20 +77,27 @@ def heading(land, ball):
     press, driven = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
     if ball['phase'] == SLIDE:
         sliding = unit(slip(v, load(ball['spin']), normal, land.ball.radius), ZERO)
-        driven = add_scaled(driven, -material_under(land, ball)['dynamic_friction'] * press, sliding)
+        driven = add_scaled(
+            driven, -material_under(land, ball)['dynamic_friction'] * press, sliding
+        )
     return unit(driven, ZERO)
 
 
 @kernel
 def touch_down(land, ball, now):
-    """Let the ball go on along its support, where it slides at first. Writes phase, velocity and spin."""
+    """Let the ball go on along its support, where it slides at first.
+
+    Writes phase, velocity and spin.
+    """
     begin_sliding(ball)
     choose_contact_mode(land, ball, now)
 
 
 @shared
 def choose_contact_mode(land, ball, now):
-    """Choose whether a ball in contact slides, rolls, pivots or rests. Writes phase, velocity and spin.
+    """Choose whether a ball in contact slides, rolls, pivots or rests.
+
+    Writes phase, velocity and spin.
 
     A ball that rolls keeps rolling while its contact grips; any other must lose its slip first.
     """
@@ -100,4 +126,6 @@ def choose_contact_mode(land, ball, now):
         # Without pivot friction a spinning top would never rest: its spin counts no more.
         if material['pivot_friction'] == 0.0 or turning == 0.0:
             come_to_rest(ball)
-    store(ball['spin'], add_scaled(scale(1.0 / land.ball.radius, cross(normal, v)), turning, normal))
+    store(
+        ball['spin'], add_scaled(scale(1.0 / land.ball.radius, cross(normal, v)), turning, normal)
+    )

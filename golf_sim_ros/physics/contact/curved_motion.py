@@ -1,37 +1,54 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Sliding and rolling on ground which is not flat: around an edge, over a crest, across a green.
 
-The integrator of flight steps the equations of contact as well; at a step's end the ball is projected onto
-the constraint: its position to the ground, its velocity to the tangent plane, its spin to that of rolling, if
-it rolls. A step ends early where the normal force vanishes. Friction is discontinuous where slip ends and
-where the ball stops: steps approach such a time as a geometric series, and what is left is removed at once
-when it no longer counts.
+The integrator of flight steps the equations of contact as well; at a step's end the ball is
+projected onto the constraint: its position to the ground, its velocity to the tangent plane, its
+spin to that of rolling, if it rolls. A step ends early where the normal force vanishes. Friction
+is discontinuous where slip ends and where the ball stops: steps approach such a time as a
+geometric series, and what is left is removed at once when it no longer counts.
 """
+
 from math import inf
 
+from .contact_state import choose_contact_mode, in_micro_bounces, remove_slip
 from ..effects import flight_rates, gravity_at
 from ..geometry import surfaces
 from ..integrators import step
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
-from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, sub, load
-from ..state.ball import ROLL, SLIDE, moves
+from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, sub, ZERO
+from ..state.ball import moves, ROLL, SLIDE
 from ..state.transitions import begin_rolling, begin_sliding, take_off
-from ..trajectory.equations_of_motion import LEAST_SPEED, contact_rates, material_under, unwinding
+from ..trajectory.equations_of_motion import contact_rates, LEAST_SPEED, material_under, unwinding
 from ..trajectory.segment import fit_segment, position
-from .contact_state import in_micro_bounces, choose_contact_mode, remove_slip
 
 MOST_NORMAL_TURN = 0.1  # rad by which the normal may turn in a step
 FIRST_STEP = 0.02  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s: a shorter step's end is not projected in position
 CORRECTIONS = 12  # attempts at a step, each shorter than the last
-CORRECTION_WORK = 1  # work of an attempt, over that of planning a segment, times the effort of the ground
-LIFTS = 1e-6  # of the press at the start: a step at whose end the ground would pull harder is shortened
+# work of an attempt, over that of planning a segment, times the effort of the ground
+CORRECTION_WORK = 1
+# of the press at the start: a step at whose end the ground would pull harder is shortened
+LIFTS = 1e-6
 APPROACH = 0.75  # of the time until friction is discontinuous: the longest step towards it
 SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is removed at once,
 GAIN = 0.03  # m/s^2: energy over mass that a step may gain for each metre that a path may be off,
-LEAST_GAIN = 2e-10  # J/kg: and this, which lifts a ball by 20 pm, and as much of the square of its speed
+# J/kg: and this, which lifts a ball by 20 pm, and as much of the square of its speed
+LEAST_GAIN = 2e-10
 LEAST_SLIP = 1e-7  # m/s: or slip below this,
 SLIP_TIME = 1e-8  # s: or below what friction takes in this time, which is longer than a least step
 
@@ -40,15 +57,17 @@ SLIP_TIME = 1e-8  # s: or below what friction takes in this time, which is longe
 def curved_segment(model, ball, now):
     """Plan a step along ground that is not flat, or lift off where nothing presses.
 
-    Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in small ways
-    only: see `snap_small_motion`.
+    Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in
+    small ways only: see `snap_small_motion`.
     """
     land = model.land
     place = load(ball['position'])
     w = load(ball['spin'])
     force, _, press, needed = contact_rates(land, ball, place, load(ball['velocity']), w)
     # The air is asked only where the weight does not hold the ball: see `press_with_air`.
-    holding = press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
+    holding = (
+        press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
+    )
     if holding <= 0.0:
         take_off(ball)
         return
@@ -79,7 +98,9 @@ def curved_segment(model, ball, now):
         held = project_to_ground(land, ball)
         if held <= 0.0:
             end = add_scaled(place, 1.0, load(ball['position_coefficients'][5]))
-            held = press_with_air(model, ball, end, end_velocity(ball), load(ball['spin_coefficients'][3]))
+            held = press_with_air(
+                model, ball, end, end_velocity(ball), load(ball['spin_coefficients'][3])
+            )
         left = step_share_to_change(land, ball, v, slipping, holding, held)
         if left == 1.0:
             left = step_share_on_ground(land, ball)
@@ -96,8 +117,8 @@ def curved_segment(model, ball, now):
 def press_with_air(model, ball, place, velocity, spin):
     """Press [m/s^2] of weight and aerodynamic forces together.
 
-    Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be back at
-    once. Elsewhere the air does not act on a ball on the ground.
+    Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be
+    back at once. Elsewhere the air does not act on a ball on the ground.
     """
     _, normal = surfaces.nearest(model.land.ground, ball['support'], place)
     turn = surfaces.turn(model.land.ground, ball['support'], place, velocity)
@@ -109,15 +130,19 @@ def press_with_air(model, ball, place, velocity, spin):
 def step_share_on_ground(land, ball):
     """Share of the step, 1 or more if it stands, over which its curve stays on the ground to a path's limit.
 
-    The curve interpolates position, velocity and acceleration at both ends (quintic Hermite), so its error
-    goes with the step's sixth power.
+    The curve interpolates position, velocity and acceleration at both ends (quintic Hermite), so
+    its error goes with the step's sixth power.
     """
     off = 0.0
     for i in range(1, 4):
-        distance, _ = surfaces.nearest(land.ground, ball['support'], position(ball, 0.25 * i * ball['span']))
+        distance, _ = surfaces.nearest(
+            land.ground, ball['support'], position(ball, 0.25 * i * ball['span'])
+        )
         off = max(off, abs(distance - land.ball.radius))
     if off <= land.limits.path:
-        return max(1.0, 0.9 * (land.limits.path / max(off, 1e-2 * land.limits.path)) ** (1.0 / 6.0))
+        return max(
+            1.0, 0.9 * (land.limits.path / max(off, 1e-2 * land.limits.path)) ** (1.0 / 6.0)
+        )
     return max(0.9 * (land.limits.path / off) ** (1.0 / 6.0), 0.1)
 
 
@@ -131,7 +156,9 @@ def snap_small_motion(land, ball, force, press, grips, now):
     normal = load(ball['normal'])
     r = land.ball.radius
     about = dot(load(ball['spin']), normal)
-    if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(land, press):
+    if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(
+        land, press
+    ):
         store(ball['spin'], add_scaled(load(ball['spin']), -about, normal))
     if ball['phase'] == SLIDE:
         u = slip(v, load(ball['spin']), normal, r)
@@ -140,7 +167,11 @@ def snap_small_motion(land, ball, force, press, grips, now):
             begin_rolling(ball)
         return
     slowing = -dot(force, v)
-    if length(v) <= LEAST_SPEED or slowing <= 0.0 or material_under(land, ball)['rolling_resistance'] == 0.0:
+    if (
+        length(v) <= LEAST_SPEED
+        or slowing <= 0.0
+        or material_under(land, ball)['rolling_resistance'] == 0.0
+    ):
         return
     # The way to the stop, v^2 over twice the deceleration, is within the limit on a path's error.
     if 0.5 * dot(v, v) * dot(v, v) <= land.limits.path * slowing * length(v):
@@ -182,8 +213,8 @@ def time_to_change(land, ball, force, press):
     slowing = -dot(force, v)
     if material['rolling_resistance'] == 0.0 or length(v) <= LEAST_SPEED:
         return inf
-    # The direction of motion changes at the rate of resistance over speed, even where a slope nearly balances
-    # the resistance along it.
+    # The direction of motion changes at the rate of resistance over speed, even where a slope
+    # nearly balances the resistance along it.
     braked = length(v) / (material['rolling_resistance'] * max(press, 1e-3))
     return min(braked, dot(v, v) / slowing) if slowing > 0.0 else braked
 
@@ -192,19 +223,24 @@ def time_to_change(land, ball, force, press):
 def step_share_to_change(land, ball, v, slipping, holding, held):
     """Share of the step that stays before a discontinuity of the equations, or 1.
 
-    ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the end.
+    ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the
+    end.
     """
     if held < -LIFTS * holding:
         return max(holding / (holding - held), 0.01)
     gain, allowed = gained(land, ball), GAIN * land.limits.path + LEAST_GAIN * (1.0 + dot(v, v))
     if gain > allowed:
         return max(0.9 * allowed / gain, 0.1)
-    # Slip or velocity that has turned round within the step has passed through zero, unseen by its stages.
+    # Slip or velocity that has turned round within the step has passed through zero, unseen by its
+    # stages.
     if ball['phase'] == SLIDE:
         turned = length(slipping) > LEAST_SPEED and dot(slipping, slip_at_end(land, ball)) < 0.0
     else:
-        turned = (material_under(land, ball)['rolling_resistance'] > 0.0 and length(v) > LEAST_SPEED
-                  and dot(v, end_velocity(ball)) < 0.0)
+        turned = (
+            material_under(land, ball)['rolling_resistance'] > 0.0
+            and length(v) > LEAST_SPEED
+            and dot(v, end_velocity(ball)) < 0.0
+        )
     return 0.5 if turned else 1.0
 
 
@@ -212,16 +248,20 @@ def step_share_to_change(land, ball, v, slipping, holding, held):
 def gained(land, ball):
     """Energy over mass [J/kg] that the ball gains on its segment beside the work of weight and air.
 
-    Ground only dissipates: there is a gain where its curvature is discontinuous, as from edge to wall, and no
-    stage of the step sees that.
+    Ground only dissipates: there is a gain where its curvature is discontinuous, as from edge to
+    wall, and no stage of the step sees that.
     """
     place = load(ball['position'])
     way = load(ball['position_coefficients'][5])
     v0, v1 = load(ball['velocity']), end_velocity(ball)
     w0, w1 = load(ball['spin']), load(ball['spin_coefficients'][3])
     inertia = land.ball.inertia * land.ball.radius * land.ball.radius
-    weight = scale(0.5, add(gravity_at(land.effects, place), gravity_at(land.effects, add(place, way))))
-    gain = 0.5 * (dot(v1, v1) - dot(v0, v0) + inertia * (dot(w1, w1) - dot(w0, w0))) - dot(weight, way)
+    weight = scale(
+        0.5, add(gravity_at(land.effects, place), gravity_at(land.effects, add(place, way)))
+    )
+    gain = 0.5 * (dot(v1, v1) - dot(v0, v0) + inertia * (dot(w1, w1) - dot(w0, w0))) - dot(
+        weight, way
+    )
     if in_micro_bounces(ball, ball['begin']):
         gain -= length(load(ball['micro_bounce_air'])) * ball['span'] * max(length(v0), length(v1))
     return gain
@@ -231,8 +271,8 @@ def gained(land, ball):
 def project_to_ground(land, ball):
     """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
-    The position is not projected after the shortest of steps: its rounding error far from the origin,
-    5e-14 m, over a nanosecond is speed. Writes curve.
+    The position is not projected after the shortest of steps: its rounding error far from the
+    origin, 5e-14 m, over a nanosecond is speed. Writes curve.
     """
     r = land.ball.radius
     x0 = load(ball['position'])
@@ -249,8 +289,13 @@ def project_to_ground(land, ball):
     store(ball['spin_coefficients'][3], spin)
     force, torque, press, _ = contact_rates(land, ball, end, velocity, spin)
     first = ball['stages'][0]
-    fit_segment(ball, way, (load(ball['velocity']), velocity), (load(first[3:6]), force),
-                (load(first[6:9]), torque))
+    fit_segment(
+        ball,
+        way,
+        (load(ball['velocity']), velocity),
+        (load(first[3:6]), force),
+        (load(first[6:9]), torque),
+    )
     return press
 
 

@@ -1,26 +1,46 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Sliding, rolling and pivoting on flat ground, in closed form (see coulomb_deceleration.py).
 
-With k the moment of inertia over m r^2 and N the press, slip u obeys u' = g_t - (1 + 1/k) mu N u/|u|, the
-velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of sliding is v = v0 + g_t t/(1 + k) +
-k/(1 + k) (u - u0).
+With k the moment of inertia over m r^2 and N the press, slip u obeys u' = g_t - (1 + 1/k) mu N
+u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of sliding is v = v0 + g_t t/(1
++ k) + k/(1 + k) (u - u0).
 """
+
 from math import inf
 
+from .contact_state import in_micro_bounces
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics import coulomb_deceleration
 from ..mechanics.impulse import slip
-from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, store, scale, sub, load
+from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, sub, ZERO
 from ..state.ball import BALL_STOPS, SLIDE, SLIP_STOPS, STEP_END
-from ..trajectory.equations_of_motion import (LEAST_SPEED, micro_bounce_forces, rolling_deceleration,
-                                              material_under, rolling_needs)
+from ..trajectory.equations_of_motion import (
+    LEAST_SPEED,
+    material_under,
+    micro_bounce_forces,
+    rolling_deceleration,
+    rolling_needs,
+)
 from ..trajectory.segment import fit_segment, position
-from .contact_state import in_micro_bounces
 
 LONGEST_SEGMENT = 10.0  # s
-UNHURRIED = 0.1  # s: a shorter segment must be more exact, for velocity errs by position's error over time
+# s: a shorter segment must be more exact, for velocity errs by position's error over time
+UNHURRIED = 0.1
 LEAST_PATH_ERROR = 1e-12  # m: no curve is asked to be nearer than this to a closed form,
 RELATIVE_ROUNDING = 1e-15  # or than this share of its distance from the origin
 
@@ -43,13 +63,16 @@ def plane_segment(land, ball, now):
     drift = scale(1.0 / (1.0 + k), downhill)
     if ball['phase'] == SLIDE:
         u = slip(v, load(ball['spin']), normal, land.ball.radius)
-        if length(u) <= LEAST_SPEED:  # slip turns round here: else rounding would end a segment here for ever
+        # slip turns round here: else rounding would end a segment here for ever
+        if length(u) <= LEAST_SPEED:
             u = ZERO
         friction = (1.0 + 1.0 / k) * material['dynamic_friction'] * pressing
         motion = coulomb_deceleration.decelerated(u, downhill, friction, normal)
         coast = (add_scaled(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:
-        resistance = 0.0 if tail else rolling_deceleration(material, press, rolling_needs(downhill, k))
+        resistance = (
+            0.0 if tail else rolling_deceleration(material, press, rolling_needs(downhill, k))
+        )
         motion = coulomb_deceleration.decelerated(v, drift, resistance, normal)
         coast = (ZERO, ZERO, 1.0)
     unwinding = material['pivot_friction'] * press / (k * land.ball.radius * land.ball.radius)
@@ -63,14 +86,16 @@ def plane_segment(land, ball, now):
     if unwinding > 0.0 and turning != 0.0:
         horizon = min(horizon, abs(turning) / unwinding)
     end = glide_end(motion, horizon)
-    # The closed form is exact, its quintic interpolant is not: the segment is halved until it errs by less
-    # than a path may.
+    # The closed form is exact, its quintic interpolant is not: the segment is halved until it errs
+    # by less than a path may.
     x = ball['position']
     rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
     while True:
         fit_glide(land, ball, motion, coast, end, (turning, unwinding))
         middle = coulomb_deceleration.half_way(motion, end)
-        allowed = max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding)
+        allowed = max(
+            land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding
+        )
         if not glide_error(ball, motion, coast, middle) > allowed:
             break
         end = middle
@@ -82,7 +107,10 @@ def plane_segment(land, ball, now):
 @kernel
 def glide_end(motion, horizon):
     """Parameter at the stop, if it comes within `horizon` [s], else at `horizon`."""
-    if coulomb_deceleration.stops(motion) and coulomb_deceleration.after(motion, inf)[0] <= horizon:
+    if (
+        coulomb_deceleration.stops(motion)
+        and coulomb_deceleration.after(motion, inf)[0] <= horizon
+    ):
         return inf
     return coulomb_deceleration.parameter_at(motion, horizon)
 
@@ -124,14 +152,24 @@ def fit_glide(land, ball, motion, coast, q, pivot):
     # A sliding ball's spin is that of rolling at velocity minus slip; a rolling ball has no slip.
     keep = 1.0 if ball['phase'] == SLIDE else 0.0
     left = max(abs(turning) - unwinding * time, 0.0)
-    if abs(turning) - unwinding * time <= 1e-12 * abs(turning):  # rounding must not leave it turning
+    # rounding must not leave it turning
+    if abs(turning) - unwinding * time <= 1e-12 * abs(turning):
         left = 0.0
     sign = 1.0 if turning > 0.0 else -1.0
     winding = scale(-sign * unwinding if turning != 0.0 else 0.0, normal)
     ball['span'] = time
     store(ball['origin'], load(ball['position']))
-    store(ball['spin_coefficients'][3], add_scaled(
-        scale(1.0 / r, cross(normal, add_scaled(v1, -keep, u1))), sign * left, normal))
-    fit_segment(ball, way, (v0, v1), (a0, a1),
-                (add(scale(1.0 / r, cross(normal, add_scaled(a0, -keep, du0))), winding),
-                 add(scale(1.0 / r, cross(normal, add_scaled(a1, -keep, du1))), winding)))
+    store(
+        ball['spin_coefficients'][3],
+        add_scaled(scale(1.0 / r, cross(normal, add_scaled(v1, -keep, u1))), sign * left, normal),
+    )
+    fit_segment(
+        ball,
+        way,
+        (v0, v1),
+        (a0, a1),
+        (
+            add(scale(1.0 / r, cross(normal, add_scaled(a0, -keep, du0))), winding),
+            add(scale(1.0 / r, cross(normal, add_scaled(a1, -keep, du1))), winding),
+        ),
+    )

@@ -1,23 +1,37 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Effects: one file each, discovered on import; a scene gets those that it needs.
 
 A file of this folder that defines ``record(scene)`` and ``idle(scene)`` is an effect, named after
-the file. ``record`` gives the effect's record for a scene; ``idle`` gives the reason why the scene can do
-without it, or '' if it can't. An idle effect does not run and is not compiled in. Where the file
-defines ``dormant(scene)`` too, a record of the same type that does nothing, a compiled `World` keeps
-that instead: so one program serves every course, and nothing compiles when the effect is switched on. A file
-with ``INSTEAD_OF``, names of effects, is another model of the same: a scene gets it only by name.
-Other packages add theirs with :func:`register_effect`.
+the file. ``record`` gives the effect's record for a scene; ``idle`` gives the reason why the scene
+can do without it, or '' if it can't. An idle effect does not run and is not compiled in. Where the
+file defines ``dormant(scene)`` too, a record of the same type that does nothing, a compiled
+`World` keeps that instead: so one program serves every course, and nothing compiles when the
+effect is switched on. A file with ``INSTEAD_OF``, names of effects, is another model of the same:
+a scene gets it only by name. Other packages add theirs with :func:`register_effect`.
 """
+
 from difflib import get_close_matches
 import importlib
 import inspect
 import pkgutil
 from typing import Callable, NamedTuple, Optional
 
-from ..jit import kernel, literal_unroll
-from ..mechanics.vector import ZERO, add, length, sub
 from . import protocol
+from ..jit import kernel, literal_unroll
+from ..mechanics.vector import add, length, sub, ZERO
 
 
 class Scene(NamedTuple):
@@ -31,7 +45,8 @@ class Scene(NamedTuple):
 class Effect(NamedTuple):
     """Known effect: how to build its record and its dormant record, and when a scene can do without it.
 
-    ``instead_of``: names of the effects to which it is an alternative; such a one is never automatic.
+    ``instead_of``: names of the effects to which it is an alternative; such a one is never
+    automatic.
     """
 
     record: Callable
@@ -61,8 +76,11 @@ class Chosen(NamedTuple):
 
         The types are then the same for every scene, but for laws asked for by name.
         """
-        found = ((name, self.on.get(name) or effect.dormant and effect.dormant(scene))
-                 for name, effect in EFFECTS.items() if name in self.on or not effect.instead_of)
+        found = (
+            (name, self.on.get(name) or effect.dormant and effect.dormant(scene))
+            for name, effect in EFFECTS.items()
+            if name in self.on or not effect.instead_of
+        )
         return tuple(record for _, record in found if record)
 
 
@@ -115,14 +133,20 @@ def check(names):
     laws_of = {}
     for name in names:
         if name == 'auto':
-            raise ValueError(f'effects {", ".join(names)}: auto stands alone, for all that a scene calls for')
+            raise ValueError(
+                f'effects {", ".join(names)}: auto stands alone, for all that a scene calls for'
+            )
         if name not in EFFECTS:
             close = get_close_matches(name, EFFECTS, 1)
             hint = f'; did you mean {close[0]!r}?' if close else ''
-            raise ValueError(f'effect {name!r} is unknown; known: auto, {", ".join(sorted(EFFECTS))}{hint}')
+            raise ValueError(
+                f'effect {name!r} is unknown; known: auto, {", ".join(sorted(EFFECTS))}{hint}'
+            )
         for law in EFFECTS[name].instead_of or (name,):
             if laws_of.setdefault(law, name) != name:
-                raise ValueError(f'effects {laws_of[law]!r} and {name!r} are two laws for the same; name one')
+                raise ValueError(
+                    f'effects {laws_of[law]!r} and {name!r} are two laws for the same; name one'
+                )
 
 
 def needless(names, scene):
@@ -164,7 +188,9 @@ def flight_rates(effects, ground, position, velocity, spin):
     force = ZERO
     torque = ZERO
     for effect in literal_unroll(effects):
-        force = add(force, add(protocol.gravity(effect, position), protocol.acceleration(effect, flow)))
+        force = add(
+            force, add(protocol.gravity(effect, position), protocol.acceleration(effect, flow))
+        )
         torque = add(torque, protocol.spin_rate(effect, flow))
     return force, torque
 
@@ -183,7 +209,8 @@ def sinking(effects, position, velocity):
 def longest_allowed_step(effects, ground, state, force, wanted):
     """Longest step [s], `wanted` at most, that can't overlook any effect.
 
-    For a ball in flight whose `state` is position, velocity and spin, and its acceleration `force` [m/s^2].
+    For a ball in flight whose `state` is position, velocity and spin, and its acceleration `force`
+    [m/s^2].
     """
     flow = airflow(effects, ground, *state)
     for effect in literal_unroll(effects):
@@ -210,8 +237,14 @@ def _discover():
     for module in pkgutil.iter_modules(__path__):
         found = importlib.import_module(f'{__name__}.{module.name}')
         if hasattr(found, 'record'):
-            register_effect(module.name, found.record, found.idle, inspect.getdoc(found).splitlines()[0],
-                            getattr(found, 'dormant', None), getattr(found, 'INSTEAD_OF', ()))
+            register_effect(
+                module.name,
+                found.record,
+                found.idle,
+                inspect.getdoc(found).splitlines()[0],
+                getattr(found, 'dormant', None),
+                getattr(found, 'INSTEAD_OF', ()),
+            )
 
 
 _discover()

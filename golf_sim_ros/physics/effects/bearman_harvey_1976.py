@@ -1,21 +1,82 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Drag and lift after Bearman and Harvey (1976): their table, interpolated by a C1 curve."""
+
 from typing import NamedTuple
 
 import numpy as np
 
-from ..jit import kernel
-from ..mechanics.vector import ZERO
 from . import protocol
 from .drag import dynamic_push
-from .published import drag_and_lift, spin_ratio, spin_axis_terms
+from .published import drag_and_lift, spin_axis_terms, spin_ratio
+from ..jit import kernel
+from ..mechanics.vector import ZERO
 
-# Aeronautical Quarterly 27 (1976) 112-122, as digitised by others, +-0.008: Re of 1.26e5 to 2.38e5.
-RATIO = (0.02, 0.05, 0.075, 0.10, 0.125, 0.15, 0.175, 0.20, 0.225, 0.25, 0.275, 0.342, 0.46, 0.641, 1.0)
-DRAG = (0.265, 0.264, 0.265, 0.267, 0.276, 0.283, 0.291, 0.299, 0.306, 0.3125, 0.319, 0.366,
-        0.391, 0.455, 0.544)
-LIFT = (0.081, 0.111, 0.129, 0.144, 0.159, 0.177, 0.194, 0.211, 0.230, 0.2465, 0.262, 0.302,
-        0.352, 0.404, 0.452)
+# Aeronautical Quarterly 27 (1976) 112-122, as digitised by others, +-0.008: Re of 1.26e5 to
+# 2.38e5.
+RATIO = (
+    0.02,
+    0.05,
+    0.075,
+    0.10,
+    0.125,
+    0.15,
+    0.175,
+    0.20,
+    0.225,
+    0.25,
+    0.275,
+    0.342,
+    0.46,
+    0.641,
+    1.0,
+)
+DRAG = (
+    0.265,
+    0.264,
+    0.265,
+    0.267,
+    0.276,
+    0.283,
+    0.291,
+    0.299,
+    0.306,
+    0.3125,
+    0.319,
+    0.366,
+    0.391,
+    0.455,
+    0.544,
+)
+LIFT = (
+    0.081,
+    0.111,
+    0.129,
+    0.144,
+    0.159,
+    0.177,
+    0.194,
+    0.211,
+    0.230,
+    0.2465,
+    0.262,
+    0.302,
+    0.352,
+    0.404,
+    0.452,
+)
 
 INSTEAD_OF = ('drag', 'magnus')
 
@@ -45,8 +106,10 @@ def interpolated(table, s):
     b = t * t * (3.0 - 2.0 * t)
     c = h * t * (1.0 - t) * (1.0 - t)
     d = -h * t * t * (1.0 - t)
-    return (a * table[i, 1] + b * table[i + 1, 1] + c * table[i, 3] + d * table[i + 1, 3],
-            a * table[i, 2] + b * table[i + 1, 2] + c * table[i, 4] + d * table[i + 1, 4])
+    return (
+        a * table[i, 1] + b * table[i + 1, 1] + c * table[i, 3] + d * table[i + 1, 3],
+        a * table[i, 2] + b * table[i + 1, 2] + c * table[i, 4] + d * table[i + 1, 4],
+    )
 
 
 @protocol.acceleration.register(BearmanHarvey1976)

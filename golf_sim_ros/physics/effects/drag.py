@@ -1,12 +1,26 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Air resistance of a golf ball: drag coefficient smooth in spin ratio and Reynolds number."""
+
 from math import pi
 from typing import NamedTuple
 
-from ..jit import kernel
-from ..mechanics.vector import ZERO, dot, scale
-from ..properties import air
 from . import protocol
+from ..jit import kernel
+from ..mechanics.vector import dot, scale, ZERO
+from ..properties import air
 
 CREEPING = 0.5  # m/s through the air: below this a reversal of drag hardly matters
 NO_FLOW = 1e-18  # m^2/s^2: below this square of airspeed there is no aerodynamic force
@@ -15,13 +29,14 @@ NO_FLOW = 1e-18  # m^2/s^2: below this square of airspeed there is no aerodynami
 class DragLaw(NamedTuple):
     """Drag coefficient for a spin ratio S >= 0 and a Reynolds number Re, bounded and positive.
 
-    ``CD = base + high h + spin (1 + slow b) S^2 / (S^2 + half^2) + crisis c / (1 + (S / fade)^2)`` with
-    ``c = 1 / (1 + (Re / crisis_at)^4)``, ``b = 1 / (1 + (Re / slow_at)^4)``,
+    ``CD = base + high h + spin (1 + slow b) S^2 / (S^2 + half^2) + crisis c / (1 + (S / fade)^2)``
+    with ``c = 1 / (1 + (Re / crisis_at)^4)``, ``b = 1 / (1 + (Re / slow_at)^4)``,
     ``h = q / (1 + q), q = (Re / high_at)^2``.
 
     c is the drag crisis of a ball that hardly spins: below it the flow separates early. Fitted by
-    tools/fit_aerodynamics.py to tour averages (PGA 2010s and 2023), a driver chart and wind-tunnel points
-    together: Re of 5e4 to 2.5e5, S of 0 to 0.32, and what irons do up to 0.6; beyond, it only stays sensible.
+    tools/fit_aerodynamics.py to tour averages (PGA 2010s and 2023), a driver chart and wind-tunnel
+    points together: Re of 5e4 to 2.5e5, S of 0 to 0.32, and what irons do up to 0.6; beyond, it
+    only stays sensible.
     """
 
     base: float = 0.11
@@ -47,20 +62,26 @@ class Drag(NamedTuple):
 
 @kernel
 def drag_coefficient(law, ss, rr, flow=1.0):
-    """Drag coefficient at the squares of spin ratio, `ss`, and Reynolds number, `rr`; see `DragLaw`.
+    """Drag coefficient at the squares of spin ratio, `ss`, and Reynolds number, `rr`.
+
+    See `DragLaw`.
 
     `ss` may be given times `flow`: that spares a division.
     """
-    # Most of the time of a flight is spent here: squares need no roots, and quotients are independent.
+    # Most of the time of a flight is spent here: squares need no roots, and quotients are
+    # independent.
     high = law.high_at * law.high_at
     slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
     crisis = law.crisis_at * law.crisis_at * law.crisis_at * law.crisis_at
     half = law.half * law.half
     fade = law.fade * law.fade
-    return ((law.base + law.high * rr / (high + rr))
-            + (law.spin * ss * (slow * (1.0 + law.slow) + rr * rr)
-               / ((slow + rr * rr) * (ss + half * flow))
-               + law.crisis * crisis * fade * flow / ((crisis + rr * rr) * (ss + fade * flow))))
+    return (law.base + law.high * rr / (high + rr)) + (
+        law.spin
+        * ss
+        * (slow * (1.0 + law.slow) + rr * rr)
+        / ((slow + rr * rr) * (ss + half * flow))
+        + law.crisis * crisis * fade * flow / ((crisis + rr * rr) * (ss + fade * flow))
+    )
 
 
 @protocol.acceleration.register(Drag)
@@ -76,7 +97,11 @@ def _acceleration(effect, flow):
 @protocol.longest_step.register(Drag)
 def turning_about(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook where drag reverses, as where a throw straight up does."""
-    return protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted) if effect.push > 0.0 else wanted
+    return (
+        protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted)
+        if effect.push > 0.0
+        else wanted
+    )
 
 
 def dynamic_push(course):

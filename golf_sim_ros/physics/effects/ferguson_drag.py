@@ -1,11 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Air resistance after Ferguson et al. (2022): drag coefficient quadratic in the spin ratio."""
+
 from typing import NamedTuple
 
-from ..mechanics.vector import length, scale
 from . import protocol
 from .drag import dynamic_push
 from .published import spin_axis_terms
+from ..mechanics.vector import length, scale
 
 # Ferguson, McNally, McPhee (2022), doi 10.5703/1288284317493: fitted to radar carry and apex of
 # 1040 shots with a Pro V1, for spin ratios of 0.02 to 0.75. The parabola's vertex, 0.562, lies

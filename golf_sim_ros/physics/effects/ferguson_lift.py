@@ -1,14 +1,29 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Magnus lift after Ferguson et al. (2022): lift coefficient quadratic in the spin ratio."""
+
 from math import sqrt
 from typing import NamedTuple
 
-from ..mechanics.vector import cross, length, scale
 from . import protocol
 from .drag import dynamic_push
 from .published import FADE, spin_axis_terms
+from ..mechanics.vector import cross, length, scale
 
-# Ferguson, McNally, McPhee (2022); see ferguson_drag.py. Held from the vertex of the parabola, 0.524, on.
+# Ferguson, McNally, McPhee (2022); see ferguson_drag.py. Held from the vertex of the parabola,
+# 0.524, on.
 FERGUSON_LIFT = (0.0504, 1.2031, -1.1490)
 
 INSTEAD_OF = ('magnus',)

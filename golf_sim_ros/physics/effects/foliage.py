@@ -1,17 +1,40 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Leaves: they brake a ball that passes through them, and do not turn it."""
+
 from math import inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from ..geometry.solid import Sphere, solid_box
-from ..jit import kernel
-from ..mechanics.vector import ZERO, length, scale
 from . import protocol
+from ..geometry.solid import solid_box, Sphere
+from ..jit import kernel
+from ..mechanics.vector import length, scale, ZERO
 
-LEAF = np.dtype([('center', 'f8', 3), ('radius', 'f8'), ('low', 'f8'), ('high', 'f8'), ('is_sphere', 'i8'),
-                 ('drag', 'f8')], align=True)
+LEAF = np.dtype(
+    [
+        ('center', 'f8', 3),
+        ('radius', 'f8'),
+        ('low', 'f8'),
+        ('high', 'f8'),
+        ('is_sphere', 'i8'),
+        ('drag', 'f8'),
+    ],
+    align=True,
+)
 FINE = 0.1  # of a body's radius: the longest way in a step near it and in it
 
 
@@ -65,8 +88,16 @@ def record(scene):
     for shape in leafy(scene.course):
         is_sphere = isinstance(shape, Sphere)
         low, high = solid_box(shape)
-        rows.append((shape.center if is_sphere else shape.base, shape.radius, low[2], high[2], is_sphere,
-                     shape.material.drag))
+        rows.append(
+            (
+                shape.center if is_sphere else shape.base,
+                shape.radius,
+                low[2],
+                high[2],
+                is_sphere,
+                shape.material.drag,
+            )
+        )
     return Foliage(np.array(rows, LEAF))
 
 

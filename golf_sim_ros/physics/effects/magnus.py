@@ -1,22 +1,38 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Magnus lift of a golf ball: lift coefficient smooth in spin ratio and Reynolds number."""
+
 from math import sqrt
 from typing import NamedTuple
 
-from ..jit import kernel
-from ..mechanics.vector import ZERO, cross, dot, scale
 from . import protocol
-from .drag import NO_FLOW, dynamic_push, reynolds_number
+from .drag import dynamic_push, NO_FLOW, reynolds_number
+from ..jit import kernel
+from ..mechanics.vector import cross, dot, scale, ZERO
 
 BEND = 0.7  # of `early_at`: within this spin ratio of zero the lift is nearly linear
 
 
 class LiftLaw(NamedTuple):
-    """Lift coefficient over the spin ratio S >= 0, for a Reynolds number Re; S times it is bounded.
+    """Lift coefficient over the spin ratio S >= 0, for a Reynolds number Re.
+
+    S times it is bounded.
 
     ``CL = S (early (1 - lost b) / sqrt(S^2 + early_at^2) + late / sqrt(S^2 + late_at^2))`` with
-    ``b = 1 / (1 + (Re / slow_at)^4)``: a part that sets in with the first spin, less at low Reynolds
-    numbers, and one that grows with it. Fitted together with `drag.DragLaw`.
+    ``b = 1 / (1 + (Re / slow_at)^4)``: a part that sets in with the first spin, less at low
+    Reynolds numbers, and one that grows with it. Fitted together with `drag.DragLaw`.
     """
 
     early: float = 0.06887
@@ -30,8 +46,8 @@ class LiftLaw(NamedTuple):
 class Magnus(NamedTuple):
     """Lift along spin x velocity by a `law`.
 
-    S is the part of the spin across the velocity, times radius, over speed; `push` is rho A / (2 m) [1/m],
-    `reynolds` the Reynolds number at 1 m/s.
+    S is the part of the spin across the velocity, times radius, over speed; `push` is rho A / (2
+    m) [1/m], `reynolds` the Reynolds number at 1 m/s.
     """
 
     push: float
@@ -60,7 +76,9 @@ def _acceleration(effect, flow):
         return ZERO
     # push v^2 CL across / |across|, where S is |across| / v^2: no division by a vanishing spin.
     across = cross(scale(effect.radius, flow.spin), flow.velocity)
-    per_ratio = lift_per_ratio(effect.law, dot(across, across), effect.reynolds * effect.reynolds * vv, vv)
+    per_ratio = lift_per_ratio(
+        effect.law, dot(across, across), effect.reynolds * effect.reynolds * vv, vv
+    )
     return scale(per_ratio, scale(effect.push, across))
 
 
@@ -70,7 +88,9 @@ def _longest_step(effect, ground, flow, force, wanted):
         return wanted
     # Lift reverses where the velocity passes the axis of spin.
     blunt = BEND * effect.law.early_at * flow.speed * flow.speed / effect.radius
-    return protocol.step_to_alignment(cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted)
+    return protocol.step_to_alignment(
+        cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted
+    )
 
 
 def record(scene):

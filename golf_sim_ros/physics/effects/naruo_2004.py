@@ -1,11 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Drag and lift after Naruo, Mizota and Shimozono (2004), in spin ratio alone."""
+
 from typing import NamedTuple
 
-from ..mechanics.vector import ZERO
 from . import protocol
 from .drag import dynamic_push
-from .published import drag_and_lift, spin_ratio, spin_axis_terms
+from .published import drag_and_lift, spin_axis_terms, spin_ratio
+from ..mechanics.vector import ZERO
 
 MOST_RATIO = 1.13  # measured for S of 0.03 to this, Re of 7.1e4 to 1.25e5
 
@@ -15,7 +29,8 @@ INSTEAD_OF = ('drag', 'magnus')
 class Naruo2004(NamedTuple):
     """CD and CL of degree four in S, held from S = 1.13 on; `push` is rho A / (2 m) [1/m].
 
-    Trans. JSME B 70 (2004) 2371, doi 10.1299/kikaib.70.2371 (as transcribed by others): one commercial ball.
+    Trans. JSME B 70 (2004) 2371, doi 10.1299/kikaib.70.2371 (as transcribed by others): one
+    commercial ball.
     """
 
     push: float

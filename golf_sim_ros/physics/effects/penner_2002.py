@@ -1,10 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Soft turf as Penner (2002) published it: the contact normal's tilt grows without bound."""
+
 from typing import NamedTuple
 
-from ..mechanics.vector import length, tangential
 from . import protocol
-from .turf import ANGLE, SPEED, TILT, idle, steepness, tilted  # noqa: F401  (idle where turf is)
+from .turf import ANGLE, idle, SPEED, steepness, TILT, tilted  # noqa: F401  (idle where turf is)
+from ..mechanics.vector import length, tangential
 
 INSTEAD_OF = ('turf',)
 
@@ -12,8 +26,9 @@ INSTEAD_OF = ('turf',)
 class Penner2002(NamedTuple):
     """Tilt `rate` [s/m]: radians of tilt per m/s and radian from the normal.
 
-    Penner, Can. J. Phys. 80 (2002) 931-940, from impacts of 18.6 m/s at 44.4 degrees from the vertical.
-    Far from there, above some 30 m/s or where a ball skims, it turns the ground over; `turf` is bounded.
+    Penner, Can. J. Phys. 80 (2002) 931-940, from impacts of 18.6 m/s at 44.4 degrees from the
+    vertical. Far from there, above some 30 m/s or where a ball skims, it turns the ground over;
+    `turf` is bounded.
     """
 
     rate: float = TILT / (SPEED * ANGLE)

@@ -1,14 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Protocol of an effect: its laws. An effect registers a body for each law in which it takes part.
 
 Every effect is a record, a ``NamedTuple`` of floats: its type is chosen when the kernel compiles,
 its fields are free to change while running.
 """
+
 from math import sqrt
 from typing import NamedTuple
 
 from ..jit import generic, kernel, shared
-from ..mechanics.vector import ZERO, dot
+from ..mechanics.vector import dot, ZERO
 
 BRIEF = 2e-3  # s: shorter steps are left to the error control, however suddenly a force reverses
 
@@ -58,17 +72,19 @@ def longest_step(effect, ground, flow, force, wanted):
 def step_to_alignment(arrow, change, blunt, wanted):
     """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes near zero.
 
-    A force along it reverses there all at once, within `blunt` of its length. To first order the arrow is
-    shortest some time ahead, or was so before, and the force changes within some width of that. A `wanted`
-    step no longer than half of that time, or than the width, is safe: this usual case is tested without
-    division and root.
+    A force along it reverses there all at once, within `blunt` of its length. To first order the
+    arrow is shortest some time ahead, or was so before, and the force changes within some width of
+    that. A `wanted` step no longer than half of that time, or than the width, is safe: this usual
+    case is tested without division and root.
     """
     turning = dot(change, change)
     closing = -dot(arrow, change)
     off = dot(arrow, arrow)
     least = wanted * turning
-    if (abs(closing) >= 2.0 * least
-            or (off + blunt * blunt) * turning - closing * closing >= least * least):
+    if (
+        abs(closing) >= 2.0 * least
+        or (off + blunt * blunt) * turning - closing * closing >= least * least
+    ):
         return wanted
     return slowed(turning, closing, off, blunt, wanted)
 

@@ -1,14 +1,29 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Shared part of the published laws of drag and lift: from coefficients to an acceleration."""
+
 from math import sqrt
 
-from ..jit import kernel
-from ..mechanics.vector import add, cross, length, scale
 from . import protocol
 from .drag import CREEPING
+from ..jit import kernel
+from ..mechanics.vector import add, cross, length, scale
 
-# The published laws give lift at no spin, where it has no direction, or let it set in infinitely steeply.
-# Below this spin ratio it fades to zero smoothly. (Estimate; a drive flies at 0.08 and more.)
+# The published laws give lift at no spin, where it has no direction, or let it set in infinitely
+# steeply. Below this spin ratio it fades to zero smoothly. (Estimate; a drive flies at 0.08 and
+# more.)
 FADE = 0.01
 
 
@@ -20,7 +35,10 @@ def spin_ratio(radius, flow):
 
 @kernel
 def drag_and_lift(push, flow, ratio, drag, lift):
-    """Acceleration by coefficients `drag` and `lift` at the spin ratio `ratio`; `push` is rho A / (2 m)."""
+    """Acceleration by coefficients `drag` and `lift` at the spin ratio `ratio`.
+
+    `push` is rho A / (2 m).
+    """
     across = cross(flow.spin, flow.velocity)
     size = length(across)
     braking = scale(-push * drag * flow.speed, flow.velocity)
@@ -33,6 +51,7 @@ def drag_and_lift(push, flow, ratio, drag, lift):
 def spin_axis_terms(effect, ground, flow, force, wanted):
     """Longest step [s] that can't overlook where drag or lift by a published law reverses."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
-    wanted = protocol.step_to_alignment(cross(flow.spin, flow.velocity),
-                                        cross(flow.spin, force), blunt, wanted)
+    wanted = protocol.step_to_alignment(
+        cross(flow.spin, flow.velocity), cross(flow.spin, force), blunt, wanted
+    )
     return protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted)

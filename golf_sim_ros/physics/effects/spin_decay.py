@@ -1,10 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Spin decay: the air brakes the spin in proportion to the path flown."""
+
 from typing import NamedTuple
 
-from ..mechanics.vector import ZERO, scale
-from ..properties import air
 from . import protocol
+from ..mechanics.vector import scale, ZERO
+from ..properties import air
 
 # Smits and Smith, Science and Golf II (1994) 340-347: dw/dt = -2.0e-5 V w / r, in air of 1.18.
 SMITS_SMITH = 2.0e-5

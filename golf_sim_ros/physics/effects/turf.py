@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Soft turf: the ball pushes up a bank, so the contact normal tilts towards where it came from.
 
 ::
@@ -8,17 +21,18 @@
             \\  / t |             t   tilt
         ________\\|_|________
 """
+
 from math import acos, cos, exp, pi, sin
 from typing import NamedTuple
 
+from . import protocol
 from ..jit import kernel
 from ..mechanics.vector import add, dot, length, scale, tangential
-from . import protocol
 
 # Penner, Can. J. Phys. 80 (2002) 931-940: 15.4 degrees at 18.6 m/s and 44.4 degrees from the
-# vertical, proportional to both. As published it grows without bound (95 degrees for a skimmer
-# of 60 m/s); here it saturates smoothly below 30 degrees. It was measured on impacts that dig in;
-# one that only grazes must not tilt, or a ball that skims along would be thrown up for ever. So the
+# vertical, proportional to both. As published it grows without bound (95 degrees for a skimmer of
+# 60 m/s); here it saturates smoothly below 30 degrees. It was measured on impacts that dig in; one
+# that only grazes must not tilt, or a ball that skims along would be thrown up for ever. So the
 # tilt fades with the approach speed's square over that of FADE (estimate).
 TILT = 15.4 * pi / 180
 SPEED = 18.6  # m/s

@@ -1,19 +1,34 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Wind that grows with height over the ground."""
+
 from math import log
 from typing import NamedTuple
 
 import numpy as np
 
+from . import protocol
 from ..geometry.surfaces import ground_level
 from ..jit import kernel
-from ..mechanics.vector import ZERO, store, scale, load
-from . import protocol
+from ..mechanics.vector import load, scale, store, ZERO
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
 LEAST_WIND = -1  # law of no wind
-# A step ends at the latest where height over the ground, plus the profile's roughness, has changed by this
-# factor of itself: the steep part of the profile near the ground would be passed before any stage saw it.
+# A step ends at the latest where height over the ground, plus the profile's roughness, has changed
+# by this factor of itself: the steep part of the profile near the ground would be passed before
+# any stage saw it.
 GROWTH = 2.0
 STEEP = 0.01  # m: the roughness of a profile that has none
 
@@ -35,7 +50,9 @@ class UniformProfile(NamedTuple):
 
 
 class Wind(NamedTuple):
-    """Wind of `velocity`, an array of 3 [m/s], at 10 m; `law` 0 uniform, 1 logarithmic, 2 power, -1 none.
+    """Wind of `velocity`, an array of 3 [m/s], at 10 m.
+
+    `law` 0 uniform, 1 logarithmic, 2 power, -1 none.
 
     The law is a number, not a type, so that a course with another law compiles nothing.
     """
@@ -74,7 +91,9 @@ def _air_velocity(effect, ground, position):
 def _longest_step(effect, ground, flow, force, wanted):
     if effect.law == LEAST_WIND or effect.law == 0 or load(effect.velocity) == ZERO:
         return wanted
-    bending = max(from_ground(ground, flow.position), 0.0) + (effect.parameter if effect.law == 1 else STEEP)
+    bending = max(from_ground(ground, flow.position), 0.0) + (
+        effect.parameter if effect.law == 1 else STEEP
+    )
     return min(max(GROWTH * bending / max(abs(flow.over_ground[2]), 1e-9), protocol.BRIEF), wanted)
 
 
@@ -87,8 +106,12 @@ def blowing(profile, velocity):
     """`Wind` record of a wind `velocity` [m/s] at 10 m with a `profile`."""
     velocity = np.array(velocity, float)
     if isinstance(profile, LogProfile):
-        return Wind(velocity, 1, float(profile.roughness),
-                    1.0 / log(1.0 + REFERENCE_HEIGHT / profile.roughness))
+        return Wind(
+            velocity,
+            1,
+            float(profile.roughness),
+            1.0 / log(1.0 + REFERENCE_HEIGHT / profile.roughness),
+        )
     if isinstance(profile, PowerProfile):
         return Wind(velocity, 2, float(profile.exponent), 1.0 / REFERENCE_HEIGHT)
     return Wind(velocity, 0, 1.0, 1.0)

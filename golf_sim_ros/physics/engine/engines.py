@@ -1,24 +1,41 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Engines of a world: plain Python, which starts at once, or compiled code.
 
-Both run the same functions. Plain Python plays a few balls in a fifth of a core; for many balls, or many
-shots, compiled code takes a hundredth of that, and has to be compiled first, once a machine.
+Both run the same functions. Plain Python plays a few balls in a fifth of a core; for many balls,
+or many shots, compiled code takes a hundredth of that, and has to be compiled first, once a
+machine.
 """
+
 from functools import lru_cache
 import logging
 import os
 from time import thread_time
 from typing import Callable, NamedTuple
 
-from .. import jit
-from ..jit.build import Build, Part, READY, is_kept, missing
 from .event_loop import advance
 from .orientation import turn_orientations
 from .planner import put_down
+from .. import jit
+from ..jit.build import Build, is_kept, missing, Part, READY
 
 ENGINES = 'auto', 'python', 'compiled'
-ENGINE_VARIABLE = 'GOLF_SIM_ROS_ENGINE'  # environment variable: what 'auto' means in `World`, `simulate`, ...
-WORTH_COMPILING = 10.0  # s of plain Python after which compiling pays: it takes half a minute, once a machine
+# environment variable: what 'auto' means in `World`, `simulate`, ...
+ENGINE_VARIABLE = 'GOLF_SIM_ROS_ENGINE'
+# s of plain Python after which compiling pays: it takes half a minute, once a machine
+WORTH_COMPILING = 10.0
 LOG = logging.getLogger('golf_sim_ros')
 
 
@@ -47,7 +64,9 @@ def best(function):
 
 
 def checked_engine(name):
-    """`name`, if an engine has it; for 'auto' the value of the variable GOLF_SIM_ROS_ENGINE, if set.
+    """`name`, if an engine has it.
+
+    For 'auto' the value of the variable GOLF_SIM_ROS_ENGINE, if set.
 
     Raises
     ------
@@ -107,11 +126,17 @@ class Program:
         return result
 
     def is_worth_compiling(self):
-        """Whether plain Python has taken so long that compiling pays; warns once if that is impossible."""
+        """Whether plain Python has taken so long that compiling pays.
+
+        Warns once if that is impossible.
+        """
         if self.spent < WORTH_COMPILING or self.told:
             return False
         if missing():
             self.told = True
-            LOG.warning('plain Python has taken %.0f s; the compiled engine would take a hundredth, but %s',
-                        self.spent, missing())
+            LOG.warning(
+                'plain Python has taken %.0f s; the compiled engine would take a hundredth, but %s',
+                self.spent,
+                missing(),
+            )
         return not self.told

@@ -1,33 +1,77 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Event-driven engine on one page: detect, evolve, resolve.
 
-Every ball has a segment that is safe until its end. The event loop takes the ball whose segment ends first,
-brings it there, resolves the event that ended it, and plans its next segment; at last every ball is read at
-the time asked for. Nothing ever steps to a tick, so paths do not depend on ticks.
+Every ball has a segment that is safe until its end. The event loop takes the ball whose segment
+ends first, brings it there, resolves the event that ended it, and plans its next segment; at last
+every ball is read at the time asked for. Nothing ever steps to a tick, so paths do not depend on
+ticks.
 """
+
 import numpy as np
 
+from .planner import (
+    apply_air_to_micro_bounces,
+    launch,
+    LONGEST_SHOT,
+    plan_next_segment,
+    read_segment,
+    stop_slip,
+)
 from ..collision import ball_gap, ball_interactions  # noqa: F401  (ball_gap registers laws of ball on ball)
 from ..collision.workspace import INVOLVED, next_event_ball
 from ..contact.contact_state import choose_contact_mode
 from ..effects import set_wind
 from ..geometry import surfaces
 from ..jit import borrowed, cycles, entry, kernel, shared
-from ..mechanics.vector import ZERO, store, unit, load
+from ..mechanics.vector import load, store, unit, ZERO
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws of ball on ball)
 from ..response.collision_log import log_out_of_bounds
-from ..response.contact_set import clear_set, add_to_set
+from ..response.contact_set import add_to_set, clear_set
 from ..response.ground_impact import cross_border, resolve_ground_impact
-from ..response.water_impact import leave_water, has_ended_in_water, resolve_water_impact
-from ..response.wedged_ball import step_wedged, is_wedged
-from ..state.ball import (BALL_STOPS, BORDER_CROSSING, ENDED, FLIGHT, GROUND_IMPACT, LAUNCH,
-                          BALL_IMPACT, OUT, REST, SLIP_STOPS, WATER_ENTRY, STEP_END, TIME_LIMIT, WATER, moves)
+from ..response.water_impact import has_ended_in_water, leave_water, resolve_water_impact
+from ..response.wedged_ball import is_wedged, step_wedged
+from ..state.ball import (
+    BALL_IMPACT,
+    BALL_STOPS,
+    BORDER_CROSSING,
+    ENDED,
+    FLIGHT,
+    GROUND_IMPACT,
+    LAUNCH,
+    moves,
+    OUT,
+    REST,
+    SLIP_STOPS,
+    STEP_END,
+    TIME_LIMIT,
+    WATER,
+    WATER_ENTRY,
+)
 from ..state.events import LOST, SHOT_ENDS
 from ..state.transitions import hole_out, leave_bounds, sink
-from ..trajectory.shot_record import (NOT_FINITE, end_shot, fail, check_segment, is_finite, copy_result,
-                                      update_apex, begin_shot)
-from .planner import (LONGEST_SHOT, apply_air_to_micro_bounces, launch, plan_next_segment, read_segment,
-                      stop_slip)
+from ..trajectory.shot_record import (
+    begin_shot,
+    check_segment,
+    copy_result,
+    end_shot,
+    fail,
+    is_finite,
+    NOT_FINITE,
+    update_apex,
+)
 
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'
@@ -39,8 +83,8 @@ EVENTS_A_BALL = 3  # events that one segment's end can log, beside impacts of ba
 def advance(model, balls, until, work, log):
     """Advance `balls` to the time `until` [s]. Writes balls, work and log.
 
-    Returns DONE, or LOG_FULL when `log` must be emptied before going on: it is full, or a shot has ended,
-    which is to be reported before anything else happens to its ball.
+    Returns DONE, or LOG_FULL when `log` must be emptied before going on: it is full, or a shot has
+    ended, which is to be reported before anything else happens to its ball.
     """
     return run_events(borrowed(model), borrowed(balls), until, borrowed(work), borrowed(log))
 
@@ -56,7 +100,8 @@ def run_events(model, balls, until, work, log):
         i = next_event_ball(work, until)
         if i < 0:
             break
-        if log.count[1] or 2 * log.count[0] > len(log.events):  # half of it: one event can log many impacts
+        # half of it: one event can log many impacts
+        if log.count[1] or 2 * log.count[0] > len(log.events):
             return LOG_FULL
         now = balls[i]['end']
         since = count_cycles(work, IN_BROAD_PHASE, since)
@@ -68,7 +113,8 @@ def run_events(model, balls, until, work, log):
             end_if_over(model, balls[work.involved[k]], work.involved[k], now, log)
             plan_or_fail(model, balls[work.involved[k]], work.involved[k], now, log)
             since = note_segment(balls, work.involved[k], model.land.ball.radius, work, since)
-        # All involved balls are planned before any is tested against others, whose segments must be current.
+        # All involved balls are planned before any is tested against others, whose segments must
+        # be current.
         for k in range(work.count[INVOLVED]):
             limit_by_balls(balls, work.involved[k], model.land.ball.radius, now, work)
         clear_set(work)
@@ -114,7 +160,9 @@ def resolve(model, balls, i, work, log):
         step_wedged(model.land, balls, i, now, work)
     elif ball['phase'] != FLIGHT:
         ahead = unit(load(ball['velocity']), ZERO)
-        _, normal = surfaces.under(model.land.ground, ball['support'], load(ball['position']), ahead)
+        _, normal = surfaces.under(
+            model.land.ground, ball['support'], load(ball['position']), ahead
+        )
         store(ball['normal'], normal)
         if ending == SLIP_STOPS:
             stop_slip(model, ball)
@@ -136,7 +184,9 @@ def end_if_over(model, ball, number, now, log):
         leave_bounds(ball)
     elif has_ended_in_water(model.land, ball):
         sink(ball)
-    elif before == REST and is_in_hole(model, ball):  # no speed of capture: it is holed once it rests there
+    elif before == REST and is_in_hole(
+        model, ball
+    ):  # no speed of capture: it is holed once it rests there
         hole_out(ball)
     if is_out(model.land.ground, ball, model.land.ball.radius):
         leave_bounds(ball)
@@ -185,7 +235,10 @@ def stage_of(ball):
 
 @kernel
 def count_cycles(work, stage, since):
-    """Cycles now; those from `since` on are added to a stage, if cycles are measured. Writes spent."""
+    """Cycles now; those from `since` on are added to a stage, if cycles are measured.
+
+    Writes spent.
+    """
     if len(work.spent) == 0:
         return since
     now = cycles()
@@ -232,7 +285,11 @@ def is_out(ground, ball, radius):
 
     It is out if all of it is (Rules of Golf 18.2a(2)); one that is still moving may come back.
     """
-    if not (ball['shot_active'] or ball['moved_by_ball']) or ball['phase'] != REST and ball['phase'] != WATER:
+    if (
+        not (ball['shot_active'] or ball['moved_by_ball'])
+        or ball['phase'] != REST
+        and ball['phase'] != WATER
+    ):
         return False
     return surfaces.out_of_bounds(ground, ball['position'][0], ball['position'][1]) >= radius
 
@@ -248,8 +305,8 @@ def is_in_hole(model, ball):
 def play_all(model, ball, strikes, gusts, work, log):
     """Play shots one after the other, each from the state in `ball`; their ends, an `ENDED` array.
 
-    `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time since
-    the strike, the first 0, and the wind from then on. Writes work, log.
+    `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time
+    since the strike, the first 0, and the wind from then on. Writes work, log.
     """
     model = borrowed(model)
     work = borrowed(work)

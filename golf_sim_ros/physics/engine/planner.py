@@ -1,13 +1,39 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Planner of a ball's next segment: how it moves on, and up to which time that is safe."""
+
 from math import inf
 
 from ..collision.ball_gap import within_contact_reach
 from ..collision.border_crossing import first_border_crossing
-from ..collision.ground_contact import WEDGED, IN_THE_AIR, ON_CURVE, ON_EDGE, ON_FLAT, first_ground_contact
+from ..collision.ground_contact import (
+    first_ground_contact,
+    IN_THE_AIR,
+    ON_CURVE,
+    ON_EDGE,
+    ON_FLAT,
+    WEDGED,
+)
 from ..collision.water_entry import first_water_entry
-from ..contact.contact_state import (heading, contact_material_number, remove_slip, set_support,
-                                     touch_down)
+from ..contact.contact_state import (
+    contact_material_number,
+    heading,
+    remove_slip,
+    set_support,
+    touch_down,
+)
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment
 from ..effects import flight_rates, gravity_at
@@ -15,30 +41,54 @@ from ..geometry import surfaces
 from ..geometry.water_surface import water_at
 from ..integrators import step
 from ..jit import borrowed, entry, kernel, shared
-from ..mechanics.vector import ZERO, add_scaled, cross, dot, length, store, scale, sub, tangential, unit, load
+from ..mechanics.vector import (
+    add_scaled,
+    cross,
+    dot,
+    length,
+    load,
+    scale,
+    store,
+    sub,
+    tangential,
+    unit,
+    ZERO,
+)
 from ..response.ground_impact import cross_border
-from ..response.time_stepping import straight_segment, next_step_time
-from ..response.wedged_ball import wedged_step_length, is_wedged
-from ..state.ball import (BORDER_CROSSING, FLIGHT, GROUND_IMPACT, NO_PART, STEPPED, ROLL, WATER_ENTRY,
-                          STEP_END, TIME_LIMIT, moves)
+from ..response.time_stepping import next_step_time, straight_segment
+from ..response.wedged_ball import is_wedged, wedged_step_length
+from ..state.ball import (
+    BORDER_CROSSING,
+    FLIGHT,
+    GROUND_IMPACT,
+    moves,
+    NO_PART,
+    ROLL,
+    STEP_END,
+    STEPPED,
+    TIME_LIMIT,
+    WATER_ENTRY,
+)
 from ..state.transitions import begin_rolling, take_off
 from ..trajectory import segment
 from ..trajectory.equations_of_motion import LEAST_SPEED
 
 LONGEST_SHOT = 300.0  # s
-MANY_ZERO_LENGTH = 100  # segments of zero length in a row, after which every second one lasts for a MOMENT,
+# segments of zero length in a row, after which every second one lasts for a MOMENT,
+MANY_ZERO_LENGTH = 100
 MOMENT = 1e-9  # s, growing if that goes on until the ball may move by the limit on a path's error,
 LEAST_STRAY = 1.5e-7  # m, or by this
 LEAST_PRESS = 0.1  # of the weight: the least that lift leaves of it during micro-bounces
-SINKING_STEP = 0.02  # s: longest segment under water, at whose end the ball may turn out to have sunk
+# s: longest segment under water, at whose end the ball may turn out to have sunk
+SINKING_STEP = 0.02
 
 
 @kernel
 def plan_next_segment(model, ball, now):
     """Plan the ball's next segment from its state at `now`, up to its first event.
 
-    Writes segment, integrator, segments_spent, zero_length_segments, contact, phase, motion. The last three
-    change only where contact does.
+    Writes segment, integrator, segments_spent, zero_length_segments, contact, phase, motion. The
+    last three change only where contact does.
     """
     ball['begin'] = now
     if not moves(ball['phase']):
@@ -92,17 +142,25 @@ def limit_by_ground(model, ball, until, on):
     # Borders first: on a mesh the next one is near, and contacts beyond it need no search.
     crosses = False
     if on == ON_FLAT or on == ON_CURVE:
-        until, crosses = first_border_crossing(model.land.ground, ball, model.land.ball.radius, until)
+        until, crosses = first_border_crossing(
+            model.land.ground, ball, model.land.ball.radius, until
+        )
     border = until
     part, hit = NO_PART, False
     if not within_contact_reach(ball):
-        until, part, hit = first_ground_contact(model.land.ground, ball, model.land.ball.radius, until, on)
+        until, part, hit = first_ground_contact(
+            model.land.ground, ball, model.land.ball.radius, until, on
+        )
     if hit:
         ball['ending'] = GROUND_IMPACT
         ball['target'] = part
     elif crosses and until == border:
         ball['ending'] = BORDER_CROSSING
-    if until < ball['span'] and ball['ending'] != GROUND_IMPACT and ball['ending'] != BORDER_CROSSING:
+    if (
+        until < ball['span']
+        and ball['ending'] != GROUND_IMPACT
+        and ball['ending'] != BORDER_CROSSING
+    ):
         ball['ending'] = STEP_END
     return until
 
@@ -127,11 +185,20 @@ def limit_by_water(model, ball, until):
 
 @kernel
 def end_segment(model, ball, now, until):
-    """End the segment `until` after `now`, or at a time limit. Writes end, ending, zero_length_segments."""
+    """End the segment `until` after `now`, or at a time limit.
+
+    Writes end, ending, zero_length_segments.
+    """
     ball['end'] = now + max(until, 0.0)
-    if ball['time_stepping'] and ball['ending'] == STEP_END and ball['end'] > next_step_time(now) - 1e-9:
-        ball['end'] = next_step_time(now)  # to the bit: all time-stepped balls are solved at one instant
-    # Events at one instant that follow each other without end would stop time: at last it is let pass.
+    if (
+        ball['time_stepping']
+        and ball['ending'] == STEP_END
+        and ball['end'] > next_step_time(now) - 1e-9
+    ):
+        # to the bit: all time-stepped balls are solved at one instant
+        ball['end'] = next_step_time(now)
+    # Events at one instant that follow each other without end would stop time: at last it is let
+    # pass.
     ball['zero_length_segments'] = ball['zero_length_segments'] + 1 if ball['end'] <= now else 0
     if ball['zero_length_segments'] > MANY_ZERO_LENGTH and ball['zero_length_segments'] % 2 == 0:
         times = ball['zero_length_segments'] - MANY_ZERO_LENGTH
@@ -177,8 +244,9 @@ def apply_air_to_micro_bounces(model, ball, now):
     place = load(ball['position'])
     normal = load(ball['normal'])
     weight = gravity_at(model.effects, place)
-    force, torque = flight_rates(model.effects, model.land.ground, place, load(ball['velocity']),
-                                 load(ball['spin']))
+    force, torque = flight_rates(
+        model.effects, model.land.ground, place, load(ball['velocity']), load(ball['spin'])
+    )
     press = -dot(weight, normal)
     longer = press / max(-dot(force, normal), LEAST_PRESS * press)
     time = longer * (ball['micro_bounce_end'] - now)
@@ -194,8 +262,9 @@ def apply_air_to_micro_bounces(model, ball, now):
 def flat_ground_goes_on(land, ball):
     """Whether flat ground continues under the ball where it is heading."""
     ahead = add_scaled(load(ball['position']), surfaces.LOOK_AHEAD, heading(land, ball))
-    return (surfaces.flat_under(land.ground, ball['support'], ahead)
-            and surfaces.touchable(land.ground, ball['support'], ahead))
+    return surfaces.flat_under(land.ground, ball['support'], ahead) and surfaces.touchable(
+        land.ground, ball['support'], ahead
+    )
 
 
 @kernel
@@ -218,8 +287,8 @@ def launch(model, ball, now):
 def put_down(model, ball, position, depth):
     """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
 
-    The ball is at rest. Returns whether it touches anything, how deep [m] it lies in the ground, and whether
-    it is in water. Writes motion, contact, curve, segments_spent.
+    The ball is at rest. Returns whether it touches anything, how deep [m] it lies in the ground,
+    and whether it is in water. Writes motion, contact, curve, segments_spent.
     """
     model = borrowed(model)
     store(ball['position'], position)
@@ -232,14 +301,20 @@ def put_down(model, ball, position, depth):
         store(ball['origin'], position)
         segment.fit_segment(ball, way, (way, way), (ZERO, ZERO), (ZERO, ZERO))
         time, part, hit = first_ground_contact(
-            model.land.ground, ball, model.land.ball.radius, 1.0, IN_THE_AIR)
+            model.land.ground, ball, model.land.ball.radius, 1.0, IN_THE_AIR
+        )
         if hit:
             store(ball['position'], segment.position(ball, time))
-    part, normal = surfaces.touched(model.land.ground, load(ball['position']), model.land.ball.radius, ZERO)
+    part, normal = surfaces.touched(
+        model.land.ground, load(ball['position']), model.land.ball.radius, ZERO
+    )
     set_support(model.land, ball, part, normal)
     place = load(ball['position'])
-    return (part >= 0, surfaces.depth(model.land.ground, place, model.land.ball.radius),
-            water_at(model.land.ground.waters, place) > 0)
+    return (
+        part >= 0,
+        surfaces.depth(model.land.ground, place, model.land.ball.radius),
+        water_at(model.land.ground.waters, place) > 0,
+    )
 
 
 @kernel
@@ -254,7 +329,10 @@ def read_segment(ball, now):
 
 @kernel
 def stop_slip(model, ball):
-    """Give the ball exactly the spin of rolling, at the event that ends its slip. Writes spin, phase."""
+    """Give the ball exactly the spin of rolling, at the event that ends its slip.
+
+    Writes spin, phase.
+    """
     normal = load(ball['normal'])
     turning = dot(load(ball['spin']), normal)
     rolling = scale(1.0 / model.land.ball.radius, cross(normal, load(ball['velocity'])))

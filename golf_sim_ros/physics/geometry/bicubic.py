@@ -1,29 +1,58 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Bicubic spline through heights on a grid, in Hermite form cell by cell.
 
-Its second derivatives are continuous, unlike those of a bicubic of local slopes: curvature decides the normal
-force on a rolling ball, so integrators keep their order across the seams of cells. Boundary conditions are
-natural (no curvature across the outline). Heights of a tilted plane give that plane.
+Its second derivatives are continuous, unlike those of a bicubic of local slopes: curvature decides
+the normal force on a rolling ball, so integrators keep their order across the seams of cells.
+Boundary conditions are natural (no curvature across the outline). Heights of a tilted plane give
+that plane.
 """
+
 from math import floor
 
 import numpy as np
 
 from ..jit import kernel, shared
 
-AT_ONCE = 64  # rows of cells that are bounded at once: on a map of 1000 x 1000 those take some 50 MB
+# rows of cells that are bounded at once: on a map of 1000 x 1000 those take some 50 MB
+AT_ONCE = 64
 
-GRID = np.dtype([
-    ('origin', 'f8', 2), ('spacing', 'f8'), ('nx', 'i8'), ('ny', 'i8'), ('first_node', 'i8'),
-    ('first_cell', 'i8'), ('first_wall', 'i8'), ('number', 'i8'), ('material', 'i8'), ('gentle', 'i8'),
-    ('high', 'f8'), ('hollow', 'f8')], align=True)
+GRID = np.dtype(
+    [
+        ('origin', 'f8', 2),
+        ('spacing', 'f8'),
+        ('nx', 'i8'),
+        ('ny', 'i8'),
+        ('first_node', 'i8'),
+        ('first_cell', 'i8'),
+        ('first_wall', 'i8'),
+        ('number', 'i8'),
+        ('material', 'i8'),
+        ('gentle', 'i8'),
+        ('high', 'f8'),
+        ('hollow', 'f8'),
+    ],
+    align=True,
+)
 
 
 def slopes(values):
     """Slopes, per grid step, of the natural cubic splines through the columns of `values`.
 
-    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends 2 s[0] + s[1] = 3 (y[1] - y[0]):
-    a tridiagonal system, by Thomas's algorithm.
+    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends 2 s[0] + s[1] = 3 (y[1]
+    - y[0]): a tridiagonal system, by Thomas's algorithm.
     """
     n = len(values)
     rise = np.diff(values, axis=0)
@@ -48,19 +77,26 @@ def nodes(heights):
 def bounds(at_nodes, spacing):
     """Bounds on height [m] and curvature [1/m] over every cell: (ny - 1, nx - 1, 4).
 
-    In order: least height, greatest height, greatest upward curvature (0 where there is none), greatest
-    curvature of either sign. They are rigorous: those of Bernstein coefficients.
+    In order: least height, greatest height, greatest upward curvature (0 where there is none),
+    greatest curvature of either sign. They are rigorous: those of Bernstein coefficients.
     """
-    return np.concatenate([_bounds(at_nodes[j:j + AT_ONCE + 1], spacing)
-                           for j in range(0, len(at_nodes) - 1, AT_ONCE)])
+    return np.concatenate(
+        [
+            _bounds(at_nodes[j : j + AT_ONCE + 1], spacing)
+            for j in range(0, len(at_nodes) - 1, AT_ONCE)
+        ]
+    )
 
 
 def _bounds(at, spacing):
-    # Bezier's ordinates along x of heights and of slopes along y, then both along y: (4, 4, ny - 1, nx - 1).
+    # Bezier's ordinates along x of heights and of slopes along y, then both along y: (4, 4, ny -
+    # 1, nx - 1).
     def along_x(value, slope):
         left, right = np.s_[:, :-1], np.s_[:, 1:]
         third = slope / 3
-        return np.stack((value[left], value[left] + third[left], value[right] - third[right], value[right]))
+        return np.stack(
+            (value[left], value[left] + third[left], value[right] - third[right], value[right])
+        )
 
     heights, slopes_up = along_x(at[..., 0], at[..., 1]), along_x(at[..., 2], at[..., 3]) / 3
     low, high = heights[:, :-1], heights[:, 1:]
@@ -72,7 +108,9 @@ def _bounds(at, spacing):
     xy = np.abs(9 * np.diff(np.diff(points, axis=1), axis=0) / area).max((0, 1))
     up = _greatest(xx.max((0, 1)), yy.max((0, 1)), xy)
     down = _greatest(-xx.min((0, 1)), -yy.min((0, 1)), xy)
-    return np.stack((points.min((0, 1)), points.max((0, 1)), np.maximum(up, 0), np.maximum(up, down)), -1)
+    return np.stack(
+        (points.min((0, 1)), points.max((0, 1)), np.maximum(up, 0), np.maximum(up, down)), -1
+    )
 
 
 def _greatest(xx, yy, xy):
@@ -86,8 +124,11 @@ def hermite(start, slope, end, end_slope, t):
     rise = end - start
     c2 = 3.0 * rise - 2.0 * slope - end_slope
     c3 = slope + end_slope - 2.0 * rise
-    return (start + t * (slope + t * (c2 + t * c3)), slope + t * (2.0 * c2 + 3.0 * t * c3),
-            2.0 * c2 + 6.0 * t * c3)
+    return (
+        start + t * (slope + t * (c2 + t * c3)),
+        slope + t * (2.0 * c2 + 3.0 * t * c3),
+        2.0 * c2 + 6.0 * t * c3,
+    )
 
 
 @kernel

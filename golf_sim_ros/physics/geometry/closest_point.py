@@ -1,15 +1,31 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Closest point of a bicubic surface to a point, within a rectangle in plan.
 
-Newton's method with box constraints on half the squared distance: a coordinate at the rectangle's border, and
-driven over it, stays there (active set). Coordinates are metres from the grid's origin.
+Newton's method with box constraints on half the squared distance: a coordinate at the rectangle's
+border, and driven over it, stays there (active set). Coordinates are metres from the grid's
+origin.
 """
-from ..jit import kernel, shared
+
 from .bicubic import bicubic
+from ..jit import kernel, shared
 
 MOST_NEWTON_STEPS = 60
 CONVERGED_STEP = 1e-13  # of the spacing: shorter steps change nothing
-SURE = 1e-6  # of the spacing: shorter steps are taken without line search, whose test would be rounding
+# of the spacing: shorter steps are taken without line search, whose test would be rounding
+SURE = 1e-6
 START_SAMPLES = 5  # a side, to start from where there may be several local minima
 NO_SAMPLES = (1e300, 1e300, 1e300, 1e300, 1e300)
 
@@ -22,7 +38,10 @@ def held(x, low, high, pull):
 
 @shared
 def newton(hessian, gradient, fixed_x, fixed_y):
-    """Newton step for a gradient, by x and y, and a Hessian, by xx, xy and yy; a fixed coordinate stays."""
+    """Newton step for a gradient, by x and y, and a Hessian, by xx, xy and yy.
+
+    A fixed coordinate stays.
+    """
     a, b, c = hessian
     gx, gy = gradient
     if fixed_x and fixed_y:
@@ -82,7 +101,8 @@ def descend(table, grid, box, x, y, point):
         a, b, c = curvatures(point, at)
         sure = (fixed_x or a > 0.0) and (fixed_y or c > 0.0)
         if not sure or not (fixed_x or fixed_y or a * c - b * b > 0.01 * a * c):
-            a = 1.0 + at[1] * at[1]  # not positive definite: Gauss-Newton, as if the surface were flat
+            # not positive definite: Gauss-Newton, as if the surface were flat
+            a = 1.0 + at[1] * at[1]
             b = at[1] * at[2]
             c = 1.0 + at[2] * at[2]
         dx, dy = newton((a, b, c), (gx, gy), fixed_x, fixed_y)
@@ -100,8 +120,10 @@ def descend(table, grid, box, x, y, point):
             nx = onto(x + share * dx, x0, x1, size)
             ny = onto(y + share * dy, y0, y1, size)
             at = bicubic(table, grid, nx, ny)
-            if (abs(dx) + abs(dy) < SURE * size
-                    or half_square(point, nx, ny, at[0]) <= before + 1e-4 * share * falling):
+            if (
+                abs(dx) + abs(dy) < SURE * size
+                or half_square(point, nx, ny, at[0]) <= before + 1e-4 * share * falling
+            ):
                 break
             share *= 0.5
         moved = abs(nx - x) + abs(ny - y)
@@ -126,12 +148,14 @@ def onto(x, low, high, size):
 def closest_point(table, grid, box, bend, point):
     """Closest point of the surface to `point` in the rectangle `box`, and `bicubic` there.
 
-    Where `bend`, a product of curvature and height, is below 1, the distance has one minimum; else it is
-    searched from every sample that is nearer than its neighbours.
+    Where `bend`, a product of curvature and height, is below 1, the distance has one minimum; else
+    it is searched from every sample that is nearer than its neighbours.
     """
     x0, y0, x1, y1 = box
     if bend < 1.0:
-        return descend(table, grid, box, min(max(point[0], x0), x1), min(max(point[1], y0), y1), point)
+        return descend(
+            table, grid, box, min(max(point[0], x0), x1), min(max(point[1], y0), y1), point
+        )
     best_x = min(max(point[0], x0), x1)
     best_y = min(max(point[1], y0), y1)
     best_x, best_y, best_at = descend(table, grid, box, best_x, best_y, point)
@@ -141,8 +165,14 @@ def closest_point(table, grid, box, bend, point):
     for i in range(START_SAMPLES):
         after = samples(table, grid, box, point, i + 1) if i < START_SAMPLES - 1 else NO_SAMPLES
         for j in range(START_SAMPLES):
-            if (before[j] < here[j] or after[j] < here[j] or j > 0 and here[j - 1] < here[j]
-                    or j < START_SAMPLES - 1 and here[j + 1] < here[j]):
+            if (
+                before[j] < here[j]
+                or after[j] < here[j]
+                or j > 0
+                and here[j - 1] < here[j]
+                or j < START_SAMPLES - 1
+                and here[j + 1] < here[j]
+            ):
                 continue
             x = x0 + (x1 - x0) * i / (START_SAMPLES - 1.0)
             y = y0 + (y1 - y0) * j / (START_SAMPLES - 1.0)
@@ -164,11 +194,13 @@ def samples(table, grid, box, point, i):
     x0, y0, x1, y1 = box
     x = x0 + (x1 - x0) * i / (START_SAMPLES - 1.0)
     y = y1 - y0
-    return (sample(table, grid, point, x, y0),
-            sample(table, grid, point, x, y0 + y * 1 / (START_SAMPLES - 1.0)),
-            sample(table, grid, point, x, y0 + y * 2 / (START_SAMPLES - 1.0)),
-            sample(table, grid, point, x, y0 + y * 3 / (START_SAMPLES - 1.0)),
-            sample(table, grid, point, x, y0 + y * 4 / (START_SAMPLES - 1.0)))
+    return (
+        sample(table, grid, point, x, y0),
+        sample(table, grid, point, x, y0 + y * 1 / (START_SAMPLES - 1.0)),
+        sample(table, grid, point, x, y0 + y * 2 / (START_SAMPLES - 1.0)),
+        sample(table, grid, point, x, y0 + y * 3 / (START_SAMPLES - 1.0)),
+        sample(table, grid, point, x, y0 + y * 4 / (START_SAMPLES - 1.0)),
+    )
 
 
 @shared

@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Cup of the hole: a rim that follows the ground around it, an upright wall below, a level bottom.
 
 Parts come in pairs: the side, rim and wall in one, hit from within and above; and the bottom. ::
@@ -9,17 +22,18 @@ Parts come in pairs: the side, rim and wall in one, hit from within and above; a
                |wall                 |
                '------- bottom ------'
 """
+
 from math import atan2, cos, hypot, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
+from . import surface_protocol, surfaces
+from .plane_patch import meets, PLANE_ROUNDING, SAME_HEIGHT
+from .polygon import Circle
 from ..jit import kernel
 from ..mechanics.vector import add_scaled, dot, length, scale, sub, tangential
 from ..properties.material import Material, Restitution
-from . import surface_protocol, surfaces
-from .plane_patch import PLANE_ROUNDING, SAME_HEIGHT, meets
-from .polygon import Circle
 
 RADIUS = 0.054  # m: Rules of Golf, definition of hole: 108 mm across
 DEPTH = 0.1016  # m: and at least that deep
@@ -28,13 +42,26 @@ UNEVEN = 0.005  # m: where the ground deviates more from the rim's curve there c
 MOST_CUP_STEPS = 30  # of Newton's method
 MOST_CUP_TURN = 0.3  # rad in one of them
 
-# A plastic liner in soil. Estimates: between turf, 0.5, and a hard plastic plate, 0.8, and well damped;
-# friction as of plastic on plastic.
-CUP_MATERIAL = Material('cup', Restitution(0.4), 0.0, 0.3, 0.25, 0.1, 0.002, 0.0, color=(0.9, 0.9, 0.9))
+# A plastic liner in soil. Estimates: between turf, 0.5, and a hard plastic plate, 0.8, and well
+# damped; friction as of plastic on plastic.
+CUP_MATERIAL = Material(
+    'cup', Restitution(0.4), 0.0, 0.3, 0.25, 0.1, 0.002, 0.0, color=(0.9, 0.9, 0.9)
+)
 
-CUPS = np.dtype([
-    ('center', 'f8', 2), ('radius', 'f8'), ('rim', 'f8', 5), ('bottom', 'f8'), ('hollow', 'f8'),
-    ('side_material', 'i8'), ('bottom_material', 'i8'), ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+CUPS = np.dtype(
+    [
+        ('center', 'f8', 2),
+        ('radius', 'f8'),
+        ('rim', 'f8', 5),
+        ('bottom', 'f8'),
+        ('hollow', 'f8'),
+        ('side_material', 'i8'),
+        ('bottom_material', 'i8'),
+        ('low', 'f8', 3),
+        ('high', 'f8', 3),
+    ],
+    align=True,
+)
 
 
 class Cup(NamedTuple):
@@ -61,7 +88,8 @@ class Cups(NamedTuple):
 def cup_in(ground, x, y, names, material):
     """`Cup` at `x`, `y` with a rim along `ground`, a `Ground` without hole.
 
-    `names` are the materials by number; rim and wall are of the ground's, the bottom of `material`.
+    `names` are the materials by number; rim and wall are of the ground's, the bottom of
+    `material`.
 
     Raises
     ------
@@ -72,14 +100,23 @@ def cup_in(ground, x, y, names, material):
     found = [surfaces.look_down(ground, x + RADIUS * cos(a), y + RADIUS * sin(a)) for a in angles]
     if any(part < 0 for _, part, _ in found):
         raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round')
-    # Least squares of the Fourier series up to the second order: it is exact for a tilted plane, which is the
-    # first, and follows a curved green by the second.
+    # Least squares of the Fourier series up to the second order: it is exact for a tilted plane,
+    # which is the first, and follows a curved green by the second.
     z = np.array([height for height, _, _ in found])
-    waves = np.array([np.ones(CUP_SAMPLES), np.cos(angles), np.sin(angles),
-                      np.cos(2 * angles), np.sin(2 * angles)])
+    waves = np.array(
+        [
+            np.ones(CUP_SAMPLES),
+            np.cos(angles),
+            np.sin(angles),
+            np.cos(2 * angles),
+            np.sin(2 * angles),
+        ]
+    )
     rim = np.linalg.lstsq(waves.T, z, rcond=None)[0]
     if np.abs(rim @ waves - z).max() > UNEVEN:
-        raise ValueError(f'hole ({x:g}, {y:g}) must have ground all round that is even to {UNEVEN:g} m')
+        raise ValueError(
+            f'hole ({x:g}, {y:g}) must have ground all round that is even to {UNEVEN:g} m'
+        )
     return Cup(float(x), float(y), tuple(rim.tolist()), names[found[0][2]], material)
 
 
@@ -104,9 +141,19 @@ def build(shapes, material_number):
         # Curvature of the rim as a curve in space: |second derivative| over radius^2, at most.
         _, a1, b1, a2, b2 = cup.rim
         waving = hypot(a1, b1) + 4.0 * hypot(a2, b2)
-        rows.append(((x, y), radius, cup.rim, bottom, hypot(radius, waving) / radius ** 2,
-                     material_number[cup.side], material_number[cup.material],
-                     (x - radius, y - radius, bottom), (x + radius, y + radius, highest)))
+        rows.append(
+            (
+                (x, y),
+                radius,
+                cup.rim,
+                bottom,
+                hypot(radius, waving) / radius**2,
+                material_number[cup.side],
+                material_number[cup.material],
+                (x - radius, y - radius, bottom),
+                (x + radius, y + radius, highest),
+            )
+        )
     return Cups(np.array(rows, CUPS))
 
 
@@ -234,7 +281,8 @@ def _turn(kind, part, point, velocity):
     if point[2] <= rim_height(cup, c, s):
         around = (-s, c, 0.0)
         return scale(-dot(velocity, around) / max(away, PLANE_ROUNDING), around)
-    # The nearest point moves along the rim as well: implicit differentiation of its condition gives its rate.
+    # The nearest point moves along the rim as well: implicit differentiation of its condition
+    # gives its rate.
     place, ahead, bend = rim_at(cup, nearest_on_rim(cup, point))
     offset = sub(point, place)
     distance = length(offset)
@@ -245,7 +293,8 @@ def _turn(kind, part, point, velocity):
 
 @surface_protocol.hollow.register(Cups)
 def _hollow(kind, part):
-    # Within 1 / (2 K) of a curve of curvature at most K the distance's second derivative is 2 K v^2 at most.
+    # Within 1 / (2 K) of a curve of curvature at most K the distance's second derivative is 2 K
+    # v^2 at most.
     return kind.cups[part // 2]['hollow'] if part % 2 == 0 else 0.0
 
 

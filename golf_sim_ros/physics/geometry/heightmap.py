@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Height maps: curved ground from heights on a grid, its cells, the walls around, and each map as a whole.
 
-Parts are numbered cells first, of all maps, row by row; then walls, one for each cell's side on the outline,
-that go down without end; then maps. A map as a whole is the support of a ball where its hollows are wide; it
-is never hit, only cells and walls are. On a map with a narrow hollow a ball rolls from cell to cell.
+Parts are numbered cells first, of all maps, row by row; then walls, one for each cell's side on
+the outline, that go down without end; then maps. A map as a whole is the support of a ball where
+its hollows are wide; it is never hit, only cells and walls are. On a map with a narrow hollow a
+ball rolls from cell to cell.
 
 ::
 
@@ -12,20 +26,22 @@ is never hit, only cells and walls are. On a map with a narrow hollow a ball rol
       origin: of       |  3 4 5      walls: along y least, y greatest,
       heights[0, 0]    o--0-1-2-> x         x least, x greatest
 """
+
 from math import floor
 from typing import NamedTuple
 
 import numpy as np
 
-from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, dot, length, scale, sub, tangential, unit
-from ..properties.material import Material
 from . import surface_protocol
-from .bicubic import GRID, bicubic, bounds, cell_at, nodes
-from .closest_point import curvatures, closest_point, held, pulls
+from .bicubic import bicubic, bounds, cell_at, GRID, nodes
+from .closest_point import closest_point, curvatures, held, pulls
 from .plane_patch import SAME_HEIGHT
+from ..jit import kernel, shared
+from ..mechanics.vector import dot, length, scale, sub, tangential, unit, ZERO
+from ..properties.material import Material
 
-WIDE = 10.0  # 1/m: hollows of less curvature touch a ball of 5 cm at one point only, with room to spare
+# 1/m: hollows of less curvature touch a ball of 5 cm at one point only, with room to spare
+WIDE = 10.0
 SEVERAL = 256  # effort of a cell where the distance may have several minima
 ON_SEAM = 1e-9  # rad: above a seam but for this angle, a ball is above both cells
 
@@ -46,8 +62,9 @@ class Heightmap(NamedTuple):
 class Maps(NamedTuple):
     """All height maps of a course.
 
-    ``grids``: a row a map; ``nodes``: height and derivatives by x, y and both, per grid step; ``cells``:
-    least and greatest height, bounds on the curvature of hollows and on any curvature [1/m].
+    ``grids``: a row a map; ``nodes``: height and derivatives by x, y and both, per grid step;
+    ``cells``: least and greatest height, bounds on the curvature of hollows and on any curvature
+    [1/m].
     """
 
     grids: np.ndarray
@@ -65,11 +82,30 @@ def build(shapes, material_number):
     for shape, (ny, nx) in zip(shapes, counts):
         table, limits = spline(shape)
         hollow = limits[..., 2].max()
-        rows.append((shape.origin, shape.spacing, nx, ny, node, cell, wall, number,
-                     material_number[shape.material], hollow < WIDE, limits[..., 1].max(), hollow))
+        rows.append(
+            (
+                shape.origin,
+                shape.spacing,
+                nx,
+                ny,
+                node,
+                cell,
+                wall,
+                number,
+                material_number[shape.material],
+                hollow < WIDE,
+                limits[..., 1].max(),
+                hollow,
+            )
+        )
         tables.append(table.reshape(-1, 4))
         cells.append(limits.reshape(-1, 4))
-        node, cell, wall, number = node + table[..., 0].size, cell + nx * ny, wall + 2 * (nx + ny), number + 1
+        node, cell, wall, number = (
+            node + table[..., 0].size,
+            cell + nx * ny,
+            wall + 2 * (nx + ny),
+            number + 1,
+        )
     return Maps(np.array(rows, GRID), np.concatenate(tables), np.concatenate(cells))
 
 
@@ -113,9 +149,11 @@ def grid_of(kind, part):
     """Number of the map that `part` belongs to."""
     for i in range(len(kind.grids)):
         grid = kind.grids[i]
-        if (part < grid['first_cell'] + grid['nx'] * grid['ny']
-                or len(kind.cells) <= part < grid['first_wall'] + 2 * (grid['nx'] + grid['ny'])
-                or part == grid['number']):
+        if (
+            part < grid['first_cell'] + grid['nx'] * grid['ny']
+            or len(kind.cells) <= part < grid['first_wall'] + 2 * (grid['nx'] + grid['ny'])
+            or part == grid['number']
+        ):
             return i
     return 0
 
@@ -166,14 +204,19 @@ def rectangle(kind, grid, part):
     row = cell // grid['nx']
     x0 = (column + 1 if side == 3 else column) * size
     y0 = (row + 1 if side == 1 else row) * size
-    return x0, y0, (column if side == 2 else column + 1) * size, (row if side == 0 else row + 1) * size
+    return (
+        x0,
+        y0,
+        (column if side == 2 else column + 1) * size,
+        (row if side == 0 else row + 1) * size,
+    )
 
 
 @shared
 def place_under(kind, grid, part, point):
     """Closest point of the surface of `part`, of a wall's upper edge, and `bicubic` there."""
-    # Curvature times height over or under the cell tells `closest_point` whether the minimum is unique. On a
-    # map as a whole it is, for its hollows are wide.
+    # Curvature times height over or under the cell tells `closest_point` whether the minimum is
+    # unique. On a map as a whole it is, for its hollows are wide.
     bend = 0.0
     if part < len(kind.cells):
         cell = kind.cells[part]
@@ -237,14 +280,18 @@ def is_over_map(grid, local):
 def is_below_map(kind, grid, part, local, place, at):
     """Whether a point is under `part`, a cell or a map, whose closest point is at `place`.
 
-    Beyond a wall a point is outside, even if it is nearest to the back of ground that falls away from there.
+    Beyond a wall a point is outside, even if it is nearest to the back of ground that falls away
+    from there.
     """
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     if x0 < place[0] < x1 and y0 < place[1] < y1:
         offset = (local[0] - place[0], local[1] - place[1], local[2] - at[0])
         return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
-    return (x0 < local[0] < x1 and y0 < local[1] < y1
-            and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0])
+    return (
+        x0 < local[0] < x1
+        and y0 < local[1] < y1
+        and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0]
+    )
 
 
 @shared
@@ -258,8 +305,8 @@ def outward(kind, grid, part):
 
 @surface_protocol.turn.register(Maps)
 def _turn(kind, part, point, velocity):
-    # The closest point moves so that it stays closest (implicit differentiation, with the Hessian of half the
-    # squared distance); held by a border, it moves along that only.
+    # The closest point moves so that it stays closest (implicit differentiation, with the Hessian
+    # of half the squared distance); held by a border, it moves along that only.
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
     x0, y0, x1, y1 = rectangle(kind, grid, part)
@@ -267,7 +314,11 @@ def _turn(kind, part, point, velocity):
         beside, x, y = beside_wall(kind, grid, part, local)
         if beside:
             offset = (local[0] - x, local[1] - y, 0.0)
-            moving = (velocity[0] if x0 < x < x1 else 0.0, velocity[1] if y0 < y < y1 else 0.0, velocity[2])
+            moving = (
+                velocity[0] if x0 < x < x1 else 0.0,
+                velocity[1] if y0 < y < y1 else 0.0,
+                velocity[2],
+            )
             return turned(sub(velocity, moving), offset)
     x, y, at = place_under(kind, grid, part, local)
     offset = (local[0] - x, local[1] - y, local[2] - at[0])
@@ -300,8 +351,8 @@ def turned(rate, offset):
 
 @surface_protocol.touchable.register(Maps)
 def _touchable(kind, part, point):
-    # Where the surface continues beyond the border that holds the closest point, a neighbour is nearer. A
-    # wall's upper edge belongs to its cell.
+    # Where the surface continues beyond the border that holds the closest point, a neighbour is
+    # nearer. A wall's upper edge belongs to its cell.
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
     if is_wall(kind, grid, part):
@@ -312,9 +363,24 @@ def _touchable(kind, part, point):
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     gx, gy = pulls(local, x, y, at)
     free = ON_SEAM * length((local[0] - x, local[1] - y, local[2] - at[0]))
-    column, row = (part - grid['first_cell']) % grid['nx'], (part - grid['first_cell']) // grid['nx']
-    return not (x <= x0 and gx > free and column > 0 or x >= x1 and gx < -free and column < grid['nx'] - 1
-                or y <= y0 and gy > free and row > 0 or y >= y1 and gy < -free and row < grid['ny'] - 1)
+    column, row = (
+        (part - grid['first_cell']) % grid['nx'],
+        (part - grid['first_cell']) // grid['nx'],
+    )
+    return not (
+        x <= x0
+        and gx > free
+        and column > 0
+        or x >= x1
+        and gx < -free
+        and column < grid['nx'] - 1
+        or y <= y0
+        and gy > free
+        and row > 0
+        or y >= y1
+        and gy < -free
+        and row < grid['ny'] - 1
+    )
 
 
 @surface_protocol.hollow.register(Maps)
@@ -386,8 +452,13 @@ def reached(grid, low, high):
     """Whether the box overlaps the map in plan, and reaches down to it."""
     x = grid['origin'][0]
     y = grid['origin'][1]
-    return (low[2] <= grid['high'] and high[0] >= x and low[0] <= x + grid['nx'] * grid['spacing']
-            and high[1] >= y and low[1] <= y + grid['ny'] * grid['spacing'])
+    return (
+        low[2] <= grid['high']
+        and high[0] >= x
+        and low[0] <= x + grid['nx'] * grid['spacing']
+        and high[1] >= y
+        and low[1] <= y + grid['ny'] * grid['spacing']
+    )
 
 
 @kernel
@@ -425,7 +496,9 @@ def next_wall(kind, grid, part, low, high):
         if low[1 - axis] > edge + SAME_HEIGHT or high[1 - axis] < edge - SAME_HEIGHT:
             continue
         first, last = columns_in(grid, axis, low, high)
-        for k in range(max(wall_number(grid, side, first), part), wall_number(grid, side, last) + 1):
+        for k in range(
+            max(wall_number(grid, side, first), part), wall_number(grid, side, last) + 1
+        ):
             if low[2] <= kind.cells[bounds_of(kind, k), 1]:
                 return k
     return -1

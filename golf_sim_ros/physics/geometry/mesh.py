@@ -1,27 +1,64 @@
-# SPDX-License-Identifier: Apache-2.0
-"""Triangle meshes: thin sheets, hit from both sides unless they are one-sided. Each triangle is a part.
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
 
-Between coplanar triangles there are seams, no edges: a ball that rolls off one is put on the plane of the
-next, which is the same. Parts are numbered depth first along a bounding volume hierarchy, mesh by mesh.
+"""Triangle meshes: thin sheets, hit from both sides unless they are one-sided.
+
+Each triangle is a part.
+
+Between coplanar triangles there are seams, no edges: a ball that rolls off one is put on the plane
+of the next, which is the same. Parts are numbered depth first along a bounding volume hierarchy,
+mesh by mesh.
 """
+
 from math import inf
 from typing import NamedTuple
 
 import numpy as np
 
-from ..jit import kernel
-from ..mechanics.vector import ZERO, add_scaled, cross, dot, length, scale, sub, tangential, unit, load
-from ..properties.material import Material
 from . import surface_protocol
 from .bvh import BVH_NODE, hierarchy
-from .plane_patch import FLUSH, PLANE_ROUNDING, SAME_HEIGHT, meets
+from .plane_patch import FLUSH, meets, PLANE_ROUNDING, SAME_HEIGHT
+from ..jit import kernel
+from ..mechanics.vector import (
+    add_scaled,
+    cross,
+    dot,
+    length,
+    load,
+    scale,
+    sub,
+    tangential,
+    unit,
+    ZERO,
+)
+from ..properties.material import Material
 
-MESH_AHEAD = 1e-7  # m: on a border, face, side or corner is decided this far ahead of a moving ball
+# m: on a border, face, side or corner is decided this far ahead of a moving ball
+MESH_AHEAD = 1e-7
 NARROW = 1e-9  # m: the normal of a triangle that is no wider is rounding
 TRIANGLE_FACE, CORNER = -1, 3  # feature of a triangle, if not side 0, 1 or 2
 
-TRIANGLE = np.dtype([('corners', 'f8', (3, 3)), ('normal', 'f8', 3), ('material', 'i8'),
-                     ('one_sided', 'i8'), ('leaf', 'i8')], align=True)
+TRIANGLE = np.dtype(
+    [
+        ('corners', 'f8', (3, 3)),
+        ('normal', 'f8', 3),
+        ('material', 'i8'),
+        ('one_sided', 'i8'),
+        ('leaf', 'i8'),
+    ],
+    align=True,
+)
 
 
 class Mesh(NamedTuple):
@@ -77,7 +114,9 @@ def checked(shape):
         raise ValueError(f'a face of a mesh names a vertex out of 0 to {len(vertices) - 1}')
     wide = widths(vertices[faces]) > NARROW  # false for a width that is not a number, too
     if not wide.all():
-        raise ValueError(f'face {wide.argmin()} of a mesh is not finite, or no wider than {NARROW} m')
+        raise ValueError(
+            f'face {wide.argmin()} of a mesh is not finite, or no wider than {NARROW} m'
+        )
     return faces
 
 
@@ -93,7 +132,8 @@ def widths(corners):
 
 def _rows(corners, material, one_sided):
     sides = corners[:, (1, 2, 0)] - corners
-    # The normal is that of the two shorter sides: of a sliver, the longest adds nothing but rounding.
+    # The normal is that of the two shorter sides: of a sliver, the longest adds nothing but
+    # rounding.
     longest = np.einsum('ijk,ijk->ij', sides, sides).argmax(1)
     turned = (longest[:, np.newaxis] + np.arange(1, 4)) % 3
     corners = np.take_along_axis(corners, turned[:, :, np.newaxis], 1)
@@ -112,7 +152,8 @@ def _parts(kind):
 
 @surface_protocol.next_part.register(Meshes)
 def _next_part(kind, part, low, high):
-    # A query resumes at the leaf of `part`, not at the root: a loop over parts is one walk of the tree.
+    # A query resumes at the leaf of `part`, not at the root: a loop over parts is one walk of the
+    # tree.
     triangles = len(kind.triangles)
     node = 0
     if 0 < part < triangles:
@@ -205,7 +246,8 @@ def _turn(kind, part, point, velocity):
     if where == TRIANGLE_FACE:
         return ZERO
     distance, out = surface_protocol.nearest(kind, part, point)
-    if where != CORNER:  # along a side the closest point goes along with the ball, and the normal stays
+    # along a side the closest point goes along with the ball, and the normal stays
+    if where != CORNER:
         side = sub(load(triangle['corners'][(where + 1) % 3]), load(triangle['corners'][where]))
         velocity = tangential(velocity, unit(side, ZERO))
     return scale(1.0 / distance, tangential(velocity, out))
@@ -213,7 +255,9 @@ def _turn(kind, part, point, velocity):
 
 @surface_protocol.touchable.register(Meshes)
 def _touchable(kind, part, point):
-    return kind.triangles[part]['one_sided'] == 0 or height_over(kind.triangles[part], point) >= 0.0
+    return (
+        kind.triangles[part]['one_sided'] == 0 or height_over(kind.triangles[part], point) >= 0.0
+    )
 
 
 @surface_protocol.flat_under.register(Meshes)
@@ -231,8 +275,10 @@ def is_over_triangle(triangle, point):
 @surface_protocol.in_plane.register(Meshes)
 def _in_plane(kind, part, point, normal):
     triangle = kind.triangles[part]
-    if (abs(dot(load(triangle['normal']), normal)) > 1.0 - 1e-12
-            and abs(height_over(triangle, point)) <= SAME_HEIGHT):
+    if (
+        abs(dot(load(triangle['normal']), normal)) > 1.0 - 1e-12
+        and abs(height_over(triangle, point)) <= SAME_HEIGHT
+    ):
         return True
     for i in range(3):  # a sliver's normal may be inexact while its corners lie in the plane
         if abs(dot(sub(load(triangle['corners'][i]), point), normal)) > PLANE_ROUNDING:
@@ -285,7 +331,9 @@ def plan(shape):
 
 def heights(shape):
     """Least and greatest height of the vertices that belong to faces."""
-    z = np.asarray(shape.vertices, float).reshape(-1, 3)[np.asarray(shape.faces, np.int64).reshape(-1, 3), 2]
+    z = np.asarray(shape.vertices, float).reshape(-1, 3)[
+        np.asarray(shape.faces, np.int64).reshape(-1, 3), 2
+    ]
     return float(z.min(initial=inf)), float(z.max(initial=-inf))
 
 

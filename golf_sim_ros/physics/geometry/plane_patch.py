@@ -1,4 +1,17 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Flat ground: planes, patches, and the edges where they are cut.
 
 Parts are numbered faces first, then the edges of cuts. A face is a rectangle, of endless size and
@@ -14,32 +27,68 @@ solid below for a plane; a cut plane's edges are walls that go down along its no
       /            /   s/--->d/
      '------------'     '----'
 """
+
 from math import cos, inf, sin
 from typing import NamedTuple
 
 import numpy as np
 
-from ..jit import kernel
-from ..mechanics.vector import ZERO, add, add_scaled, dot, length, scale, sub, tangential, unit, load
 from . import surface_protocol
 from .patch import Patch
 from .plane import Plane
-from .polygon import Polygons, inside, polygons, sides
+from .polygon import inside, Polygons, polygons, sides
+from ..jit import kernel
+from ..mechanics.vector import (
+    add,
+    add_scaled,
+    dot,
+    length,
+    load,
+    scale,
+    sub,
+    tangential,
+    unit,
+    ZERO,
+)
 
 SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as coplanar
 PLANE_ROUNDING = 1e-9  # m: faces extend by this, so that neighbours leave no gap by rounding
 FLUSH = 2.0 * PLANE_ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
-AHEAD = 2e-7  # m: on a border the normal turns as it will beyond it, or a ball would leave an edge too late
+# m: on a border the normal turns as it will beyond it, or a ball would leave an edge too late
+AHEAD = 2e-7
 
-FACE = np.dtype([
-    ('center', 'f8', 3), ('normal', 'f8', 3), ('along', 'f8', 3), ('across', 'f8', 3),
-    ('half_length', 'f8'), ('half_width', 'f8'), ('solid', 'i8'), ('one_sided', 'i8'),
-    ('material', 'i8'), ('first_cut', 'i8'), ('last_cut', 'i8'),
-    ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+FACE = np.dtype(
+    [
+        ('center', 'f8', 3),
+        ('normal', 'f8', 3),
+        ('along', 'f8', 3),
+        ('across', 'f8', 3),
+        ('half_length', 'f8'),
+        ('half_width', 'f8'),
+        ('solid', 'i8'),
+        ('one_sided', 'i8'),
+        ('material', 'i8'),
+        ('first_cut', 'i8'),
+        ('last_cut', 'i8'),
+        ('low', 'f8', 3),
+        ('high', 'f8', 3),
+    ],
+    align=True,
+)
 
-EDGE = np.dtype([
-    ('start', 'f8', 3), ('direction', 'f8', 3), ('length', 'f8'), ('normal', 'f8', 3),
-    ('depth', 'f8'), ('material', 'i8'), ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+EDGE = np.dtype(
+    [
+        ('start', 'f8', 3),
+        ('direction', 'f8', 3),
+        ('length', 'f8'),
+        ('normal', 'f8', 3),
+        ('depth', 'f8'),
+        ('material', 'i8'),
+        ('low', 'f8', 3),
+        ('high', 'f8', 3),
+    ],
+    align=True,
+)
 
 
 class Flats(NamedTuple):
@@ -72,8 +121,22 @@ def flats(shapes, material_number):
         half = (inf, inf) if solid else (0.5 * shape.length, 0.5 * shape.width)
         number = material_number[shape.material]
         low, high = _face_box(center, n, a, b, half)
-        faces.append((center, n, a, b, *half, solid, not solid and shape.one_sided, number,
-                      len(outlines), len(outlines) + len(shape.cut), low, high))
+        faces.append(
+            (
+                center,
+                n,
+                a,
+                b,
+                *half,
+                solid,
+                not solid and shape.one_sided,
+                number,
+                len(outlines),
+                len(outlines) + len(shape.cut),
+                low,
+                high,
+            )
+        )
         for outline in shape.cut:
             edges += _cut_edges(center, n, outline, inf if solid else 0.0, number)
         outlines += shape.cut
@@ -103,7 +166,9 @@ def _cut_edges(center, n, outline, depth, material):
         size = np.linalg.norm(end - start)
         foot = np.array([-depth * c if c and depth else 0.0 for c in n])
         box = np.array([start, end, start + foot, end + foot])
-        rows.append((start, (end - start) / size, size, n, depth, material, box.min(0), box.max(0)))
+        rows.append(
+            (start, (end - start) / size, size, n, depth, material, box.min(0), box.max(0))
+        )
     return rows
 
 
@@ -128,8 +193,14 @@ def _next_part(kind, part, low, high):
 @kernel
 def meets(row, low, high):
     """Whether the box of `row`, a face, edge or node, overlaps the box from `low` to `high`."""
-    return not (low[2] > row['high'][2] or high[0] < row['low'][0] or low[0] > row['high'][0]
-                or high[1] < row['low'][1] or low[1] > row['high'][1] or high[2] < row['low'][2])
+    return not (
+        low[2] > row['high'][2]
+        or high[0] < row['low'][0]
+        or low[0] > row['high'][0]
+        or high[1] < row['low'][1]
+        or low[1] > row['high'][1]
+        or high[2] < row['low'][2]
+    )
 
 
 @kernel
@@ -247,8 +318,10 @@ def _flat_under(kind, part, point):
         return False
     face = kind.faces[part]
     d = sub(point, load(face['center']))
-    return (abs(dot(d, load(face['along']))) <= face['half_length'] + PLANE_ROUNDING
-            and abs(dot(d, load(face['across']))) <= face['half_width'] + PLANE_ROUNDING)
+    return (
+        abs(dot(d, load(face['along']))) <= face['half_length'] + PLANE_ROUNDING
+        and abs(dot(d, load(face['across']))) <= face['half_width'] + PLANE_ROUNDING
+    )
 
 
 @surface_protocol.is_plane.register(Flats)
@@ -264,8 +337,7 @@ def _in_plane(kind, part, point, normal):
     else:
         place = load(kind.edges[part - len(kind.faces)]['start'])
         own = load(kind.edges[part - len(kind.faces)]['normal'])
-    return (abs(dot(own, normal)) > 1.0 - 1e-12
-            and abs(dot(sub(point, place), own)) <= SAME_HEIGHT)
+    return abs(dot(own, normal)) > 1.0 - 1e-12 and abs(dot(sub(point, place), own)) <= SAME_HEIGHT
 
 
 @surface_protocol.material_of.register(Flats)
@@ -281,8 +353,13 @@ def _top(kind, x, y):
     who = -1
     for part in range(len(kind.faces)):
         face = kind.faces[part]
-        if (x < face['low'][0] or x > face['high'][0] or y < face['low'][1]
-                or y > face['high'][1] or abs(face['normal'][2]) < 1e-9):
+        if (
+            x < face['low'][0]
+            or x > face['high'][0]
+            or y < face['low'][1]
+            or y > face['high'][1]
+            or abs(face['normal'][2]) < 1e-9
+        ):
             continue
         dx = x - face['center'][0]
         dy = y - face['center'][1]
@@ -297,9 +374,11 @@ def _top(kind, x, y):
 @kernel
 def _covers(flat, face, place):
     d = sub(place, load(face['center']))
-    return (abs(dot(d, load(face['along']))) <= face['half_length'] + PLANE_ROUNDING
-            and abs(dot(d, load(face['across']))) <= face['half_width'] + PLANE_ROUNDING
-            and not in_a_cut(flat, face, place[0], place[1]))
+    return (
+        abs(dot(d, load(face['along']))) <= face['half_length'] + PLANE_ROUNDING
+        and abs(dot(d, load(face['across']))) <= face['half_width'] + PLANE_ROUNDING
+        and not in_a_cut(flat, face, place[0], place[1])
+    )
 
 
 def plan(shape):
@@ -308,14 +387,26 @@ def plan(shape):
     if isinstance(shape, Patch):
         n, a, b = frame(shape.normal, shape.heading)
         turns = ((1, 1), (-1, 1), (-1, -1), (1, -1))
-        outlines.append(tuple(
-            tuple((np.asarray(shape.center) + i * 0.5 * shape.length * a + j * 0.5 * shape.width * b)[:2])
-            for i, j in turns))
+        outlines.append(
+            tuple(
+                tuple(
+                    (
+                        np.asarray(shape.center)
+                        + i * 0.5 * shape.length * a
+                        + j * 0.5 * shape.width * b
+                    )[:2]
+                )
+                for i, j in turns
+            )
+        )
     return outlines
 
 
 def heights(shape):
-    """Least and greatest height of a patch or a level plane; a tilted plane counts as having none."""
+    """Least and greatest height of a patch or a level plane.
+
+    A tilted plane counts as having none.
+    """
     if isinstance(shape, Plane):
         level = frame(shape.normal, 0.0)[0][2] == 1.0
         return (shape.point[2], shape.point[2]) if level else (-inf, -inf)

@@ -1,27 +1,53 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Solids on the ground: upright cylinders with flat ends, and spheres."""
+
 from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from ..jit import kernel
-from ..mechanics.vector import add_scaled, dot, length, scale, sub, tangential, unit, load
-from ..properties.material import Material, Restitution
 from . import surface_protocol
-from .plane_patch import PLANE_ROUNDING, SAME_HEIGHT, meets
+from .plane_patch import meets, PLANE_ROUNDING, SAME_HEIGHT
 from .polygon import Circle
+from ..jit import kernel
+from ..mechanics.vector import add_scaled, dot, length, load, scale, sub, tangential, unit
+from ..properties.material import Material, Restitution
 
-SOLID = np.dtype([('center', 'f8', 3), ('radius', 'f8'), ('height', 'f8'), ('is_sphere', 'i8'),
-                  ('sort', 'i8'), ('material', 'i8'), ('low', 'f8', 3), ('high', 'f8', 3)], align=True)
+SOLID = np.dtype(
+    [
+        ('center', 'f8', 3),
+        ('radius', 'f8'),
+        ('height', 'f8'),
+        ('is_sphere', 'i8'),
+        ('sort', 'i8'),
+        ('material', 'i8'),
+        ('low', 'f8', 3),
+        ('high', 'f8', 3),
+    ],
+    align=True,
+)
 
 FLAGSTICK_RADIUS = 0.0095  # m: the Equipment Rules allow 50.8 mm across; sticks in use have 19 mm
 FLAGSTICK_HEIGHT = 2.13  # m: 7 ft, as the USGA recommends
 
-# A stick of glass fibre that gives way. Estimates: it takes most of the approach, and is smooth; livelier
-# or rougher, 0.35 and 0.2, it would turn back putts of 1.5 m/s that the bare hole takes.
-FLAGSTICK_MATERIAL = Material('flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.05, 0.002, 0.0,
-                              color=(1.0, 1.0, 1.0))
+# A stick of glass fibre that gives way. Estimates: it takes most of the approach, and is smooth;
+# livelier or rougher, 0.35 and 0.2, it would turn back putts of 1.5 m/s that the bare hole takes.
+FLAGSTICK_MATERIAL = Material(
+    'flagstick', Restitution(0.15), 0.0, 0.15, 0.1, 0.05, 0.002, 0.0, color=(1.0, 1.0, 1.0)
+)
 
 
 class Cylinder(NamedTuple):
@@ -57,7 +83,10 @@ class Solids(NamedTuple):
 
 
 def build(shapes, material_number):
-    """`Solids` of records; `material_number` maps a material to its row. A cylinder's center is its base."""
+    """`Solids` of records; `material_number` maps a material to its row.
+
+    A cylinder's center is its base.
+    """
     rows = []
     for shape in shapes:
         is_sphere = isinstance(shape, Sphere)
@@ -65,15 +94,31 @@ def build(shapes, material_number):
         low, high = solid_box(shape)
         is_flagstick = isinstance(shape, Flagstick)
         sort = surface_protocol.FLAGSTICK_SORT if is_flagstick else surface_protocol.OBSTACLE_SORT
-        rows.append((center, shape.radius, 0.0 if is_sphere else shape.height, is_sphere, sort,
-                     material_number[shape.material], low, high))
+        rows.append(
+            (
+                center,
+                shape.radius,
+                0.0 if is_sphere else shape.height,
+                is_sphere,
+                sort,
+                material_number[shape.material],
+                low,
+                high,
+            )
+        )
     return Solids(np.array(rows, SOLID))
 
 
 def without(ground):
-    """`Ground` without solids: no obstacles, no flagstick. The types are the same, so nothing recompiles."""
-    return ground._replace(kinds=tuple(Solids(kind.solids[:0]) if isinstance(kind, Solids) else kind
-                                       for kind in ground.kinds))
+    """`Ground` without solids: no obstacles, no flagstick.
+
+    The types are the same, so nothing recompiles.
+    """
+    return ground._replace(
+        kinds=tuple(
+            Solids(kind.solids[:0]) if isinstance(kind, Solids) else kind for kind in ground.kinds
+        )
+    )
 
 
 def solid_box(shape):
@@ -86,7 +131,9 @@ def solid_box(shape):
 
 def plan(shape):
     """Outline in plan: the rim of a cylinder's flat top; a sphere has nothing flat that ends."""
-    return [] if isinstance(shape, Sphere) else [Circle(shape.base[0], shape.base[1], shape.radius)]
+    return (
+        [] if isinstance(shape, Sphere) else [Circle(shape.base[0], shape.base[1], shape.radius)]
+    )
 
 
 def heights(shape):
@@ -175,7 +222,9 @@ def _flat_under(kind, part, point):
 def _in_plane(kind, part, point, normal):
     solid = kind.solids[part]
     top = solid['center'][2] + solid['height']
-    return not solid['is_sphere'] and normal[2] > 1.0 - 1e-12 and abs(point[2] - top) <= SAME_HEIGHT
+    return (
+        not solid['is_sphere'] and normal[2] > 1.0 - 1e-12 and abs(point[2] - top) <= SAME_HEIGHT
+    )
 
 
 @surface_protocol.is_ground.register(Solids)

@@ -1,11 +1,26 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Protocol of a kind of ground: its laws. All shapes of a kind are one record of arrays.
 
-A kind consists of parts, numbered from 0. They are convex, or their hollows have bounded curvature, which is
-what conservative advancement needs. A new kind registers a body for each law where the default does not do.
+A kind consists of parts, numbered from 0. They are convex, or their hollows have bounded
+curvature, which is what conservative advancement needs. A new kind registers a body for each law
+where the default does not do.
 """
+
 from ..jit import generic
-from ..mechanics.vector import ZERO, add_scaled, length, scale, sub
+from ..mechanics.vector import add_scaled, length, scale, sub, ZERO
 
 NOTHING = (-1e300, -1)
 GROUND_SORT, CUP_SORT, FLAGSTICK_SORT, OBSTACLE_SORT = range(4)
@@ -38,7 +53,8 @@ def nearest(kind, part, point):
 @generic
 def turn(kind, part, point, velocity):
     """Rate of change of the unit normal that `nearest` gives, as `point` moves at `velocity`."""
-    # The default, for kinds without a closed form: central differences over a micrometre to each side.
+    # The default, for kinds without a closed form: central differences over a micrometre to each
+    # side.
     speed = length(velocity)
     if speed == 0.0:
         return ZERO

@@ -1,38 +1,53 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Ground as a whole: the parts of all kinds in one numbering, and borders where surface or material change.
 
-Queries for the closest point, the highest surface and the material under a point, whatever kind of ground
-answers them.
+Queries for the closest point, the highest surface and the material under a point, whatever kind of
+ground answers them.
 """
+
 from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from ..jit import borrowed, entry, kernel, literal_unroll, shared
-from ..mechanics.vector import ZERO, add_scaled, dot, scale
-from ..state.ball import NO_PART
 from . import surface_protocol
 from .plane_patch import SAME_HEIGHT
-from .polygon import Polygons, Regions, beside, in_region, inside
+from .polygon import beside, in_region, inside, Polygons, Regions
 from .water_surface import Waters
+from ..jit import borrowed, entry, kernel, literal_unroll, shared
+from ..mechanics.vector import add_scaled, dot, scale, ZERO
+from ..state.ball import NO_PART
 
 NO_GROUND = -1e300
 LOOK_AHEAD = 1e-7  # m: on a border, the support of a ball is decided this far ahead
 RIM_REACH = 0.02  # m: within this of the height of its rim the hole cuts whatever ground is there
 
-BORDER = np.dtype([('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8')],
-                  align=True)
+BORDER = np.dtype(
+    [('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8')], align=True
+)
 
 
 class Ground(NamedTuple):
     """All that a ball can touch.
 
-    ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another surface
-    or material may begin, of a circle its centre and ``radius``; ``zones`` are polygons painted with
-    ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y, radius, least and
-    greatest height of the rim, height of the bottom; ``waters`` lie over it all; all ground and water but
-    tilted planes lies between ``lowest`` and ``highest``.
+    ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
+    surface or material may begin, of a circle its centre and ``radius``; ``zones`` are polygons
+    painted with ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y,
+    radius, least and greatest height of the rim, height of the bottom; ``waters`` lie over it all;
+    all ground and water but tilted planes lies between ``lowest`` and ``highest``.
     """
 
     kinds: tuple
@@ -48,6 +63,7 @@ class Ground(NamedTuple):
 
 def of_its_kind(law, otherwise):
     """Kernel that calls `law` for the kind to which a part, numbered among those of all kinds, belongs."""
+
     @shared
     def asked(ground, part, *more):
         result = otherwise
@@ -63,6 +79,7 @@ def of_its_kind(law, otherwise):
 
 def part_of_its_kind(law):
     """`of_its_kind` for a `law` that answers with a part of the kind, or -1: its number among all parts."""
+
     @shared
     def asked(ground, part):
         found = NO_PART
@@ -81,7 +98,8 @@ def part_of_its_kind(law):
 
 def named_after(law, asked):
     """Give the kernel `asked` a name and the documentation of its `law`."""
-    # Compiled code of two processes may be linked in a third, by name: no two kernels may share one.
+    # Compiled code of two processes may be linked in a third, by name: no two kernels may share
+    # one.
     asked.__name__ = asked.__qualname__ = f'{law.__name__}_of_its_kind'
     asked.__doc__ = law.__doc__
     return asked
@@ -105,8 +123,8 @@ support_of = part_of_its_kind(surface_protocol.support_of)
 _smooth_surface = part_of_its_kind(surface_protocol.smooth_surface)
 
 
-# Of `parts`, `next_part` and `top` each has a loop of its own: they ask all kinds, not the one of a part, and
-# put the answers together in three ways, as a sum, the first, the highest.
+# Of `parts`, `next_part` and `top` each has a loop of its own: they ask all kinds, not the one of
+# a part, and put the answers together in three ways, as a sum, the first, the highest.
 @kernel
 def parts(ground):
     """Number of parts of all kinds."""
@@ -152,7 +170,10 @@ def in_hole(hole, place):
     """Whether the ground at `place` is cut away by the hole."""
     dx = place[0] - hole[0]
     dy = place[1] - hole[1]
-    return (dx * dx + dy * dy < hole[2] * hole[2] and hole[3] - RIM_REACH < place[2] < hole[4] + RIM_REACH)
+    return (
+        dx * dx + dy * dy < hole[2] * hole[2]
+        and hole[3] - RIM_REACH < place[2] < hole[4] + RIM_REACH
+    )
 
 
 @kernel
@@ -213,7 +234,10 @@ def ground_level(ground, x, y):
 
 @kernel
 def out_of_bounds(ground, x, y):
-    """Distance [m] in plan by which the point is out of bounds; -1 within bounds, or if there are none."""
+    """Distance [m] in plan by which the point is out of bounds.
+
+    -1 within bounds, or if there are none.
+    """
     if len(ground.bounds.first) < 2 or inside(ground.bounds, 0, x, y):
         return -1.0
     return beside(ground.bounds, 0, x, y)
@@ -223,15 +247,18 @@ def out_of_bounds(ground, x, y):
 def is_alone(ground, part, point, radius):
     """Whether a ball at `point` that touches `part` can touch no other part."""
     low, high = around(point, radius + SAME_HEIGHT)
-    return next_part(ground, 0, low, high) == part and next_part(ground, part + 1, low, high) == NO_PART
+    return (
+        next_part(ground, 0, low, high) == part
+        and next_part(ground, part + 1, low, high) == NO_PART
+    )
 
 
 @shared
 def touched(ground, point, radius, ahead):
     """Part that supports a ball at `point`, the latest of equals, and the normal there.
 
-    A part counts if its gap is within SAME_HEIGHT. Faces count where they exist `ahead`, a unit vector, of
-    here: on a border that decides which is next. A face has priority over an edge.
+    A part counts if its gap is within SAME_HEIGHT. Faces count where they exist `ahead`, a unit
+    vector, of here: on a border that decides which is next. A face has priority over an edge.
     """
     best = NO_PART
     best_flat = False
@@ -243,8 +270,9 @@ def touched(ground, point, radius, ahead):
         distance, normal = nearest(ground, part, point)
         if abs(distance - radius) <= SAME_HEIGHT and touchable(ground, part, next_point):
             flat = flat_under(ground, part, next_point)
-            if (flat or not best_flat) and (best == NO_PART or flat > best_flat
-                                            or normal[2] > best_normal[2] - 1e-9):
+            if (flat or not best_flat) and (
+                best == NO_PART or flat > best_flat or normal[2] > best_normal[2] - 1e-9
+            ):
                 best = support_of(ground, part)
                 best_flat = flat
                 best_normal = normal
@@ -256,7 +284,8 @@ def touched(ground, point, radius, ahead):
 def under(ground, part, point, ahead):
     """`nearest`, for the support `part` of a ball at `point` that moves along `ahead`, a unit vector or zero.
 
-    On a border a flat part that continues ahead counts as flat: a corner that is passed by is no edge.
+    On a border a flat part that continues ahead counts as flat: a corner that is passed by is no
+    edge.
     """
     next_point = add_scaled(point, LOOK_AHEAD, ahead)
     if flat_under(ground, part, next_point):

@@ -1,12 +1,29 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Zones: polygons in plan that paint the ground with another material."""
+
 from typing import NamedTuple
 
 from ..properties.material import Material
 
 
 class Zone(NamedTuple):
-    """Zone with corners (x, y) of its `polygon`; `cut` holds polygons within that it does not repaint."""
+    """Zone with corners (x, y) of its `polygon`.
+
+    `cut` holds polygons within that it does not repaint.
+    """
 
     material: Material
     polygon: tuple

@@ -1,15 +1,29 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Integrators: one file each, discovered on import.
 
-A Runge-Kutta method is a record with a Butcher tableau; `step` is shared. A method of another kind registers
-its own body for `runge_kutta.step_by`.
+A Runge-Kutta method is a record with a Butcher tableau; `step` is shared. A method of another kind
+registers its own body for `runge_kutta.step_by`.
 """
+
 import importlib
 import pkgutil
 from typing import Callable, NamedTuple
 
-from ..jit import shared
 from . import runge_kutta
+from ..jit import shared
 
 
 class Method(NamedTuple):
@@ -29,5 +43,8 @@ for _module in pkgutil.iter_modules(__path__):
 
 @shared
 def step(model, ball):
-    """Plan the ball's next segment: one step of the model's method. Writes curve, ending, integrator."""
+    """Plan the ball's next segment: one step of the model's method.
+
+    Writes curve, ending, integrator.
+    """
     runge_kutta.step_by(model.method, model, ball)

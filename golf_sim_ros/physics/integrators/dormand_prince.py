@@ -1,41 +1,63 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Dormand-Prince 5(4): an embedded Runge-Kutta method with adaptive steps.
 
 J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae", J. Comput. Appl. Math. 6
 (1980) 19-26.
 """
+
 from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
 
-from ..state.ball import FLIGHT
 from . import rk4, runge_kutta
+from ..state.ball import FLIGHT
 
-TABLE = np.array([
-    [0, 0, 0, 0, 0, 0],
-    [1 / 5, 0, 0, 0, 0, 0],
-    [3 / 40, 9 / 40, 0, 0, 0, 0],
-    [44 / 45, -56 / 15, 32 / 9, 0, 0, 0],
-    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0, 0],
-    [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
-    [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84]])
+TABLE = np.array(
+    [
+        [0, 0, 0, 0, 0, 0],
+        [1 / 5, 0, 0, 0, 0, 0],
+        [3 / 40, 9 / 40, 0, 0, 0, 0],
+        [44 / 45, -56 / 15, 32 / 9, 0, 0, 0],
+        [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0, 0],
+        [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
+        [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
+    ]
+)
 ERROR = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
-HOP_ERROR = np.array([0, 0, 0, 1 / 6, -1 / 6])  # of RK4 to a rule of order 3: the last stage for the fourth
+# of RK4 to a rule of order 3: the last stage for the fourth
+HOP_ERROR = np.array([0, 0, 0, 1 / 6, -1 / 6])
 LEAST = 1e-9  # s: a shorter step is accepted whatever its error
 MOST_GROWTH = 4.0  # from one step to the next
-# Hops of less than STEP_SAFETY times the tolerance's fourth root are flown by RK4, with two stages fewer. Its
-# error would allow twice that, but a ball that skids over rough amplifies it by hundreds.
+# Hops of less than STEP_SAFETY times the tolerance's fourth root are flown by RK4, with two stages
+# fewer. Its error would allow twice that, but a ball that skids over rough amplifies it by
+# hundreds.
 STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
-ON_GROUND = 0.2  # of the tolerance: along the ground, where a ball must be slow to stop, errors count more,
-MOST_ON_GROUND = 1e-5  # m: and coarser steps save nothing, for events and the ground's curvature end them
+# of the tolerance: along the ground, where a ball must be slow to stop, errors count more,
+ON_GROUND = 0.2
+# m: and coarser steps save nothing, for events and the ground's curvature end them
+MOST_ON_GROUND = 1e-5
 
 
 class DormandPrince(NamedTuple):
     """Adaptive steps of order 5.
 
-    ``tolerance`` [m] of a step's error, weighted as in `runge_kutta.error_in_metres`; ``longest`` step [s].
+    ``tolerance`` [m] of a step's error, weighted as in `runge_kutta.error_in_metres`; ``longest``
+    step [s].
     """
 
     tolerance: float
@@ -61,22 +83,23 @@ def _allowed(method, ball):
 
 @runge_kutta.first_step.register(DormandPrince)
 def _first_step(method, speed, hop, most):
-    # The error of a step goes with its fifth power. Air bends the path of a fast ball over a time that goes
-    # with 1/speed, gravity that of a slow one: a drive starts with 0.33 s for 5e-5 m, a ball that hops with
-    # half a second. The step is a little longer than the hop: no more is used, and lift may prolong that.
+    # The error of a step goes with its fifth power. Air bends the path of a fast ball over a time
+    # that goes with 1/speed, gravity that of a slow one: a drive starts with 0.33 s for 5e-5 m, a
+    # ball that hops with half a second. The step is a little longer than the hop: no more is used,
+    # and lift may prolong that.
     far = min(175.0 / max(speed, 1.0), 3.5)
     short = 1.05 * hop + 1e-6
     part = short / far
     if part * part * part * part * part > most:
-        return min(far * most ** 0.2, method.longest), False
+        return min(far * most**0.2, method.longest), False
     part = short / STEP_SAFETY
     return min(short, method.longest), part * part * part * part <= most
 
 
 @runge_kutta.stands.register(DormandPrince)
 def _stands(method, h, error, most):
-    # At a discontinuity of a force, steps below LEAST gain nothing. A step that is not a number is accepted,
-    # or the loop would not end.
+    # At a discontinuity of a force, steps below LEAST gain nothing. A step that is not a number is
+    # accepted, or the loop would not end.
     return error <= most or not h >= LEAST
 
 
@@ -84,9 +107,11 @@ def _stands(method, h, error, most):
 def _next_step(method, h, error, most):
     if h < LEAST:  # the discontinuity has been passed
         return MOST_GROWTH * h
-    if not error < 1e300:  # the stages diverged, as of a light ball that dense air stops within microseconds
+    # the stages diverged, as of a light ball that dense air stops within microseconds
+    if not error < 1e300:
         return 0.1 * h
-    grow = 0.9 / sqrt(sqrt(max(error / most, 1e-3)))  # as good a guess as the fifth root, and cheaper
+    # as good a guess as the fifth root, and cheaper
+    grow = 0.9 / sqrt(sqrt(max(error / most, 1e-3)))
     return min(h * min(max(grow, 0.1), MOST_GROWTH), method.longest)
 
 

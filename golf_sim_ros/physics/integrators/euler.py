@@ -1,11 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Semi-implicit (symplectic) Euler, of order 1: a baseline, as in most game engines."""
+
 from typing import NamedTuple
 
-from ..mechanics.vector import add_scaled, store, scale, load
+from . import runge_kutta
+from ..mechanics.vector import add_scaled, load, scale, store
 from ..state.ball import STEP_END
 from ..trajectory.segment import fit_segment
-from . import runge_kutta
 
 
 class SemiImplicitEuler(NamedTuple):

@@ -1,18 +1,32 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """One Runge-Kutta step of flight, or along ground that is not flat, by the tableau of any method."""
+
 from math import inf, sqrt
 
 import numpy as np
 
-from ..effects import longest_allowed_step, gravity_at, wind_at
+from ..effects import gravity_at, longest_allowed_step, wind_at
 from ..jit import generic, kernel
-from ..mechanics.vector import add_scaled, dot, length, store, sub, load
+from ..mechanics.vector import add_scaled, dot, length, load, store, sub
 from ..state.ball import FLIGHT, STEP_END
 from ..trajectory.equations_of_motion import LEAST_SPEED, rates
 from ..trajectory.segment import fit_segment
 
-# Weights that turn errors of velocity and spin into metres: they act for about a second, in which 100 rad/s
-# bend a drive by about a metre.
+# Weights that turn errors of velocity and spin into metres: they act for about a second, in which
+# 100 rad/s bend a drive by about a metre.
 VELOCITY_WEIGHT = 1.0  # s
 SPIN_WEIGHT = 0.01  # m s
 
@@ -25,8 +39,8 @@ NO_CHANGE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 def tableau(method, brief):
     """Butcher tableau of `method`: a row a stage; the last row is the solution's weights.
 
-    So the last stage is evaluated at the step's end and is the first of the next step (FSAL). For a `brief`
-    step the tableau may have fewer stages.
+    So the last stage is evaluated at the step's end and is the first of the next step (FSAL). For
+    a `brief` step the tableau may have fewer stages.
     """
     return NO_TABLE
 
@@ -47,7 +61,8 @@ def allowed(method, ball):
 def first_step(method, speed, hop, most):
     """Length [s] of the first step, and whether it is brief; see `tableau`.
 
-    At `speed` [m/s] through the air, of a flight of about `hop` seconds, with a tolerance of `most` [m].
+    At `speed` [m/s] through the air, of a flight of about `hop` seconds, with a tolerance of
+    `most` [m].
     """
     return 0.01, False
 
@@ -66,7 +81,10 @@ def next_step(method, h, error, most):
 
 @kernel
 def stage(model, ball, i, state):
-    """Evaluate stage `i` at `state`, position, velocity and spin in one tuple. Writes stages, evaluations."""
+    """Evaluate stage `i` at `state`, position, velocity and spin in one tuple.
+
+    Writes stages, evaluations.
+    """
     x, y, z, u, v, w, p, q, r = state
     force, torque = rates(model, ball, (x, y, z), (u, v, w), (p, q, r))
     row = ball['stages'][i]
@@ -101,18 +119,30 @@ def state_after(ball, change):
     a = ball['position']
     b = ball['velocity']
     c = ball['spin']
-    return (a[0] + change[0], a[1] + change[1], a[2] + change[2],
-            b[0] + change[3], b[1] + change[4], b[2] + change[5],
-            c[0] + change[6], c[1] + change[7], c[2] + change[8])
+    return (
+        a[0] + change[0],
+        a[1] + change[1],
+        a[2] + change[2],
+        b[0] + change[3],
+        b[1] + change[4],
+        b[2] + change[5],
+        c[0] + change[6],
+        c[1] + change[7],
+        c[2] + change[8],
+    )
 
 
 @kernel
 def error_in_metres(ball, weights, h):
     """Embedded error estimate [m]: a weighted Euclidean norm."""
     e = mix(ball, weights, len(weights), h)
-    return sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]
-                + VELOCITY_WEIGHT * VELOCITY_WEIGHT * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
-                + SPIN_WEIGHT * SPIN_WEIGHT * (e[6] * e[6] + e[7] * e[7] + e[8] * e[8]))
+    return sqrt(
+        e[0] * e[0]
+        + e[1] * e[1]
+        + e[2] * e[2]
+        + VELOCITY_WEIGHT * VELOCITY_WEIGHT * (e[3] * e[3] + e[4] * e[4] + e[5] * e[5])
+        + SPIN_WEIGHT * SPIN_WEIGHT * (e[6] * e[6] + e[7] * e[7] + e[8] * e[8])
+    )
 
 
 @kernel
@@ -121,7 +151,11 @@ def start(model, ball, last):
 
     Writes stages, evaluations.
     """
-    goes_on = ball['step'] > 0.0 and ball['last_stage_time'] == ball['begin'] and not ball['time_stepping']
+    goes_on = (
+        ball['step'] > 0.0
+        and ball['last_stage_time'] == ball['begin']
+        and not ball['time_stepping']
+    )
     if ball['phase'] == FLIGHT and goes_on:
         ball['stages'][0] = ball['stages'][last]
     else:
@@ -134,14 +168,20 @@ def longest(model, ball, wanted):
     if ball['phase'] != FLIGHT:
         return wanted
     state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
-    return longest_allowed_step(model.effects, model.land.ground, state, load(ball['stages'][0, 3:6]), wanted)
+    return longest_allowed_step(
+        model.effects, model.land.ground, state, load(ball['stages'][0, 3:6]), wanted
+    )
 
 
 @kernel
 def airspeed(model, ball):
     """Airspeed [m/s] of the ball."""
-    return length(sub(load(ball['velocity']),
-                      wind_at(model.effects, model.land.ground, load(ball['position']))))
+    return length(
+        sub(
+            load(ball['velocity']),
+            wind_at(model.effects, model.land.ground, load(ball['position'])),
+        )
+    )
 
 
 @kernel
@@ -181,7 +221,8 @@ def step_by(method, model, ball):
         if stands(method, h, error, most):
             break
         h = next_step(method, h, error, most)
-    # The first step is often the last one: unless it was cut, the next is as long, which saves a root.
+    # The first step is often the last one: unless it was cut, the next is as long, which saves a
+    # root.
     ball['step'] = h if begins and h == whole else next_step(method, h, error, most)
     first = ball['stages'][0]
     final = ball['stages'][last]
@@ -189,8 +230,15 @@ def step_by(method, model, ball):
     # After a brief step the last stage stands in another row than the next step looks for it.
     ball['last_stage_time'] = -1.0 if brief else ball['begin'] + h
     store(ball['origin'], load(ball['position']))
-    store(ball['spin_coefficients'][3], add_scaled(
-        load(ball['spin']), 1.0, (change[6], change[7], change[8])))
-    fit_segment(ball, (change[0], change[1], change[2]), (load(first[0:3]), load(final[0:3])),
-                (load(first[3:6]), load(final[3:6])), (load(first[6:9]), load(final[6:9])))
+    store(
+        ball['spin_coefficients'][3],
+        add_scaled(load(ball['spin']), 1.0, (change[6], change[7], change[8])),
+    )
+    fit_segment(
+        ball,
+        (change[0], change[1], change[2]),
+        (load(first[0:3]), load(final[0:3])),
+        (load(first[3:6]), load(final[3:6])),
+        (load(first[6:9]), load(final[6:9])),
+    )
     ball['ending'] = STEP_END

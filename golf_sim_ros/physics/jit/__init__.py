@@ -1,11 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Kernels: plain Python functions that numba compiles where a play needs it.
 
-``@kernel`` and ``@shared`` mark a function that other kernels call, ``@entry`` one that Python calls, too.
-``@generic`` makes a function that dispatches on the type of its first argument; in compiled code that happens
-at compile time. All of them stay plain Python functions: calling one runs Python. `compiled` gives the
-machine code of an entry. So both engines live in one process, and nothing here imports numba before
-`compiled` is called:
+``@kernel`` and ``@shared`` mark a function that other kernels call, ``@entry`` one that Python
+calls, too. ``@generic`` makes a function that dispatches on the type of its first argument; in
+compiled code that happens at compile time. All of them stay plain Python functions: calling one
+runs Python. `compiled` gives the machine code of an entry. So both engines live in one process,
+and nothing here imports numba before `compiled` is called:
 
 =============  =========================================================================
 `backend`      compiles; with `linking` and `reference` the only modules that know numba
@@ -13,6 +26,7 @@ machine code of an entry. So both engines live in one process, and nothing here 
 `build`        compiles in a child process, which keeps the compiler's memory to itself
 =============  =========================================================================
 """
+
 import inspect
 import time
 
@@ -24,7 +38,8 @@ GENERICS = []
 def kernel(function):
     """Mark `function` as a kernel for other kernels, inlined where it is called.
 
-    It is compiled for every combination of argument types. Inlined, a shot takes a quarter of the time.
+    It is compiled for every combination of argument types. Inlined, a shot takes a quarter of the
+    time.
     """
     ROLES[function] = KERNEL
     return function
@@ -60,12 +75,18 @@ def generic(default):
 
     def add_case(record, function):
         if parameters(default) != parameters(function):
-            raise TypeError(f'{default.__name__} of {record.__name__} must have the parameters '
-                            f'{parameters(default)}')
+            raise TypeError(
+                f'{default.__name__} of {record.__name__} must have the parameters '
+                f'{parameters(default)}'
+            )
         return cases.setdefault(record, function)
 
     call.register, call.cases, call.default = register, cases, default
-    call.__doc__, call.__name__, call.__module__ = default.__doc__, default.__name__, default.__module__
+    call.__doc__, call.__name__, call.__module__ = (
+        default.__doc__,
+        default.__name__,
+        default.__module__,
+    )
     GENERICS.append(call)
     return call
 
@@ -76,27 +97,35 @@ def parameters(function):
 
 
 def literal_unroll(records):
-    """Unroll a loop over the tuple `records` by their types, in compiled code; the tuple itself in Python."""
+    """Unroll a loop over the tuple `records` by their types, in compiled code.
+
+    The tuple itself in Python.
+    """
     return records
 
 
 def borrowed(record):
     """Pass `record` by reference, uncounted: an entry's argument, which the caller keeps alive.
 
-    numba hands a record from kernel to kernel by value, a model with its dozens of arrays as hundreds
-    of numbers, and counts references to each array. By reference it is one pointer; its fields are
-    read where they are needed. So is every record in it.
+    numba hands a record from kernel to kernel by value, a model with its dozens of arrays as
+    hundreds of numbers, and counts references to each array. By reference it is one pointer; its
+    fields are read where they are needed. So is every record in it.
     """
     return record
 
 
 def cycles():
-    """Processor's cycle counter, of a constant rate; in plain Python nanoseconds, where unknown 0."""
+    """Processor's cycle counter, of a constant rate.
+
+    In plain Python nanoseconds, where unknown 0.
+    """
     return time.perf_counter_ns()
 
 
 def compiled(function):
-    """Callable with the machine code of an entry; imports numba, and compiles what is not in the cache.
+    """Callable with the machine code of an entry.
+
+    Imports numba, and compiles what is not in the cache.
 
     Raises
     ------
@@ -104,6 +133,7 @@ def compiled(function):
         There is no numba, it is switched off, or it can't be imported; the message is one line.
     """
     from . import backend
+
     return backend.dispatcher(function)
 
 

@@ -1,9 +1,33 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Compilation of kernels with numba, on demand: the only way from `ROLES` to machine code."""
+
 import os
 
-from . import (ENTRY, GENERICS, ROLES, SHARED, Unavailable, borrowed, cache as cache_, cycles, literal_unroll,
-               parameters)
+from . import (
+    borrowed,
+    cycles,
+    ENTRY,
+    GENERICS,
+    literal_unroll,
+    parameters,
+    ROLES,
+    SHARED,
+    Unavailable,
+)
+from . import cache as cache_
 
 if os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0'):
     raise Unavailable('NUMBA_DISABLE_JIT is set')
@@ -19,7 +43,8 @@ except ImportError as error:  # also a numba that does not work with this numpy
 from . import linking, reference
 from .kept import keep_compiled
 
-# No signed zeros: results differ in the sign of zero only, and an effect that adds zero costs no addition.
+# No signed zeros: results differ in the sign of zero only, and an effect that adds zero costs no
+# addition.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
 DISPATCHERS = {}  # by function
 REGISTERED = set()  # generics that are declared to numba
@@ -36,7 +61,10 @@ def dispatcher(function):
 
 
 def declare():
-    """Declare all kernels and generics to numba; effects may have been registered since the last time."""
+    """Declare all kernels and generics to numba.
+
+    Effects may have been registered since the last time.
+    """
     for function, role in list(ROLES.items()):
         if function not in DISPATCHERS:
             DISPATCHERS[function] = made = new_dispatcher(function, role)
@@ -54,7 +82,9 @@ def new_dispatcher(function, role):
     """New dispatcher of `function` in its `role`, with nothing compiled yet."""
     if role == ENTRY:
         return keep_compiled(numba.njit(**OPTIONS)(function), CACHE)
-    made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(function)
+    made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(
+        function
+    )
     return linking.inner(made)
 
 
@@ -67,6 +97,7 @@ def unroll(function):
 
 def declare_generic(generic):
     """Declare a generic to numba as an overload on the type of its first argument."""
+
     def pick(record, *_):
         return generic.cases.get(getattr(record, 'instance_class', None), generic.default)
 

@@ -1,9 +1,24 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Compilation in a child process, which keeps the compiler's memory, and its crashes, to itself.
 
-As a program, ``python -m golf_sim_ros.physics.jit.build`` reads a pickled `Job` and runs it, so that what it
-needs is compiled and in the cache afterwards. It writes its progress to stdout, a share a line.
+As a program, ``python -m golf_sim_ros.physics.jit.build`` reads a pickled `Job` and runs it, so
+that what it needs is compiled and in the cache afterwards. It writes its progress to stdout, a
+share a line.
 """
+
 from contextlib import contextmanager
 import hashlib
 from importlib import import_module, metadata
@@ -18,7 +33,7 @@ import tempfile
 from threading import Event, Thread
 from typing import Callable, NamedTuple
 
-from . import GENERICS, Unavailable, cache
+from . import cache, GENERICS, Unavailable
 
 COMPILING, LOADING, READY, BUILD_FAILED = 'compiling', 'loading', 'ready', 'failed'
 ORDINARY_LINKING = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
@@ -28,7 +43,10 @@ INSTALL = "pip install numba, in a virtual environment made with 'python3 -m ven
 
 
 def missing():
-    """Reason why there can be no compiled engine here, one line, or ''; numba is not imported for it."""
+    """Reason why there can be no compiled engine here, one line, or ''.
+
+    Numba is not imported for it.
+    """
     if importlib.util.find_spec('numba') is None:
         return f'numba is not installed: {INSTALL}'
     if os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0'):
@@ -55,8 +73,8 @@ class Job(NamedTuple):
 class Build:
     """Compiled code on its way: a child compiles what `parts` need, then this process loads it.
 
-    It starts at once, in a thread; the child has a low priority, unless it is `urgent`.
-    `state` is 'compiling', 'loading', 'ready' or 'failed', `progress` the share of the compilation that is
+    It starts at once, in a thread; the child has a low priority, unless it is `urgent`. `state` is
+    'compiling', 'loading', 'ready' or 'failed', `progress` the share of the compilation that is
     done, `reason` one line that says why it failed.
     """
 
@@ -98,16 +116,26 @@ class Build:
     def _compile(self, environment):
         """Compile in a child; the reason why it could not, or ''."""
         if '__main__' in self.job.modules:
-            raise Unavailable('effects of the main program cannot be handed to a child process; '
-                              'put them into a module')
+            raise Unavailable(
+                'effects of the main program cannot be handed to a child process; '
+                'put them into a module'
+            )
         try:
             job = pickle.dumps(self.job)
         except (pickle.PicklingError, AttributeError, TypeError) as error:
             raise Unavailable(f'the scene cannot be handed to a child process: {error}') from None
         with tempfile.TemporaryFile() as errors:
             self.child = subprocess.Popen(
-                [sys.executable, '-m', PROGRAM], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=errors,
-                env={**os.environ, **environment, 'PYTHONPATH': os.pathsep.join(filter(None, sys.path))})
+                [sys.executable, '-m', PROGRAM],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                env={
+                    **os.environ,
+                    **environment,
+                    'PYTHONPATH': os.pathsep.join(filter(None, sys.path)),
+                },
+            )
             with self.child:
                 self._hand_over(job)
                 for line in self.child.stdout:
@@ -127,7 +155,9 @@ class Build:
 def foreign_modules():
     """Names of the modules of other packages that add to the physics: effects that users have registered."""
     names = {function.__module__ for generic in GENERICS for function in generic.cases.values()}
-    return tuple(sorted(name for name in names if name.partition('.')[0] != __name__.partition('.')[0]))
+    return tuple(
+        sorted(name for name in names if name.partition('.')[0] != __name__.partition('.')[0])
+    )
 
 
 def is_kept(key):
@@ -147,14 +177,19 @@ def processor():
     named = os.environ.get('NUMBA_CPU_NAME', '') + os.environ.get('NUMBA_CPU_FEATURES', '')
     try:
         with open('/proc/cpuinfo', encoding='utf-8') as file:
-            about = {line for line in file if line.startswith(('model', 'flags', 'Features', 'CPU'))}
+            about = {
+                line for line in file if line.startswith(('model', 'flags', 'Features', 'CPU'))
+            }
     except OSError:
         about = {platform.processor()}
     return f'{platform.machine()} {named or sorted(about)}'
 
 
 def trouble(code, errors):
-    """Reason of a child's failure in one line, from its exit code and the last of its output; '' if none."""
+    """Reason of a child's failure in one line, from its exit code and the last of its output.
+
+    '' if none.
+    """
     if code == 0:
         return ''
     lines = [line.strip() for line in errors.splitlines() if line.strip()]
@@ -171,13 +206,15 @@ def numba_version():
 
 def main():
     """Run the job that comes in, as long as who sent it lives."""
-    # Not sys.stdin: the lock of its buffer, in which the thread would wait, is in the way at the end.
+    # Not sys.stdin: the lock of its buffer, in which the thread would wait, is in the way at the
+    # end.
     job = pickle.load(open(0, 'rb', closefd=False))
     os.nice(job.niceness)
     Thread(target=end_with_parent, daemon=True).start()
     for module in job.modules:
         import_module(module)
     from .progress import telling_progress
+
     with telling_progress(sys.stdout, len(job.parts)), is_alone_in_process():
         for part in job.parts:
             if not is_kept(part.key):  # by another child, for which this one has waited
@@ -190,6 +227,7 @@ def main():
 def is_alone_in_process():
     """Lock across processes: no other child compiles meanwhile, for it may be what this one needs, too."""
     import fcntl
+
     with open(cache.folder().path / 'lock', 'w') as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield

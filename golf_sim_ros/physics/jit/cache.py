@@ -1,24 +1,39 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Cache folder of compiled code, and whether its content can be trusted.
 
-Compiled code is stored as pickles: loading runs it. So it is read only where nobody but this user and root
-can have put it.
+Compiled code is stored as pickles: loading runs it. So it is read only where nobody but this user
+and root can have put it.
 """
+
+from functools import lru_cache
 import hashlib
 import os
+from pathlib import Path
 import stat
 import tempfile
-from functools import lru_cache
-from pathlib import Path
 from typing import NamedTuple, Optional
 
 NAME = 'golf_sim_ros'
 CACHE_VARIABLE = 'GOLF_SIM_ROS_CACHE'
-OTHERS_WRITE = (stat.S_IWGRP | stat.S_IWOTH) * (os.name == 'posix')  # elsewhere these bits mean nothing
+# elsewhere these bits mean nothing
+OTHERS_WRITE = (stat.S_IWGRP | stat.S_IWOTH) * (os.name == 'posix')
 OTHERS_ENTER = stat.S_IXGRP | stat.S_IXOTH
-LINKS = 40          # links of a path that are followed: as many as Linux does
+LINKS = 40  # links of a path that are followed: as many as Linux does
 FALLBACK = '/tmp' if os.name == 'posix' else tempfile.gettempdir()
-LEAST_SPACE = 1 << 16      # bytes that a folder has to take in to count as writable
+LEAST_SPACE = 1 << 16  # bytes that a folder has to take in to count as writable
 
 
 class Cache(NamedTuple):
@@ -58,8 +73,8 @@ def folder():
     """`Cache` for this user and these sources, created where there is none.
 
     The variable GOLF_SIM_ROS_CACHE names the folder, or else NUMBA_CACHE_DIR does, which holds no
-    folder for each version of the sources. Otherwise it is the first that can be used of the user's
-    cache (XDG_CACHE_HOME, or ``~/.cache``) and a temporary folder of the user's own.
+    folder for each version of the sources. Otherwise it is the first that can be used of the
+    user's cache (XDG_CACHE_HOME, or ``~/.cache``) and a temporary folder of the user's own.
     """
     if os.environ.get(CACHE_VARIABLE):
         return _named(CACHE_VARIABLE, source_key())
@@ -133,10 +148,13 @@ def _make(path):
 
 
 def _check_way(path):
-    """Raise `_Refused` if others can change what is found at `path`; what does not exist they can't.
+    """Raise `_Refused` if others can change what is found at `path`.
 
-    Every folder and link on the way has to belong to this user or root. Others may write to none of them,
-    except to a temporary folder, where they can't remove what is not theirs (the sticky bit).
+    What does not exist they can't.
+
+    Every folder and link on the way has to belong to this user or root. Others may write to none
+    of them, except to a temporary folder, where they can't remove what is not theirs (the sticky
+    bit).
     """
     here, ahead, links, shared = Path(), list(path.parts), 0, False
     while ahead:
@@ -207,7 +225,8 @@ def _is_outside(status):
     except OSError:
         return False
     return status.st_uid == nobody and not any(
-        int(first) <= nobody < int(first) + int(count) for first, _, count in ranges)
+        int(first) <= nobody < int(first) + int(count) for first, _, count in ranges
+    )
 
 
 def _unwritable(path):

@@ -1,11 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Disk cache of the machine code of entries, where numba's own does not do.
 
-numba numbers the files of a function without a lock: two processes that save code for different types at the
-same time may end with the one's code under the other's name, and loading that crashes. And it ignores a
-read-only folder, as in an image built as root and run by others. Internals of numba, the same in versions
-0.56 to 0.68.
+numba numbers the files of a function without a lock: two processes that save code for different
+types at the same time may end with the one's code under the other's name, and loading that
+crashes. And it ignores a read-only folder, as in an image built as root and run by others.
+Internals of numba, the same in versions 0.56 to 0.68.
 """
+
 from contextlib import contextmanager
 
 from numba.core import caching

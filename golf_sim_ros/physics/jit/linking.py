@@ -1,9 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Linking of inner kernels as unoptimised drafts, which are optimised once, in the entry: internals of numba.
 
-numba would optimise at every level of calls, with all that is called below. The internals used here are known
-in the versions of `KNOWN`; with others kernels are compiled the ordinary way.
+numba would optimise at every level of calls, with all that is called below. The internals used
+here are known in the versions of `KNOWN`; with others kernels are compiled the ordinary way.
 """
+
 import os
 
 import numba
@@ -41,8 +55,10 @@ class _Inner(CPUDispatcher):
 
     def get_call_template(self, args, kws):
         """Call template for these argument types, without literals: a constant needs no code of its own."""
-        return super().get_call_template([types.unliteral(a) for a in args],
-                                         {name: types.unliteral(a) for name, a in kws.items()})
+        return super().get_call_template(
+            [types.unliteral(a) for a in args],
+            {name: types.unliteral(a) for name, a in kws.items()},
+        )
 
 
 if is_known():

@@ -1,10 +1,25 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Progress of a compilation, by the functions that numba has compiled."""
+
 from contextlib import contextmanager
 
 from numba.core import event
 
-FUNCTIONS, MORE = 520, 90  # functions of a first program, and of one more; each takes about as long
+# functions of a first program, and of one more; each takes about as long
+FUNCTIONS, MORE = 520, 90
 LEFT_TO_LINK = 0.97  # at the end everything is linked and optimised once more
 
 

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Intrinsics of kernels without an equivalent in Python: records by reference, the processor's cycles."""
+
 import platform
 
 from llvmlite import ir
@@ -63,8 +77,10 @@ def _load(context, builder, field, pointer):
     if isinstance(field, types.BaseNamedTuple):
         return pointer
     if isinstance(field, types.BaseTuple):
-        items = [_load(context, builder, item, cgutils.gep_inbounds(builder, pointer, 0, i))
-                 for i, item in enumerate(field.types)]
+        items = [
+            _load(context, builder, item, cgutils.gep_inbounds(builder, pointer, 0, i))
+            for i, item in enumerate(field.types)
+        ]
         return context.make_tuple(builder, _read(field), items)
     value = builder.load(pointer)
     return _view(context, builder, field, value) if isinstance(field, types.Array) else value
@@ -84,6 +100,7 @@ def borrowed(typing, record):
         if isinstance(record, types.Array):
             return _view(context, builder, record, args[0])
         return cgutils.alloca_once_value(builder, args[0])
+
     return (record if isinstance(record, types.Array) else _Reference(record))(record), build
 
 
@@ -95,4 +112,5 @@ def cycles(typing):
         counter = ir.FunctionType(ir.IntType(64), ())
         name = 'llvm.readcyclecounter'
         return builder.call(cgutils.get_or_insert_function(builder.module, counter, name), ())
+
     return types.int64(), build

@@ -1,25 +1,40 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Coulomb deceleration of a particle on a slope, in closed form: u' = G ex - a u/|u|.
 
-Slip on a plane under friction and rolling under rolling resistance are both this. In parabolic coordinates,
-u = (P^2 - Q^2) ex + 2 P Q ey with speed s = P^2 + Q^2, and with dt = s dq instead of time, the
-motion is linear: P' = -(a - G)/2 P, Q' = -(a + G)/2 Q. So speed, direction, time and displacement are sums
-of exponentials of q; q grows without bound as the particle stops, and the stop itself is one of its
-values: q = inf. (Levi-Civita's regularization of the Kepler problem is the same substitution.)
-A particle that starts from rest goes straight down the slope; there q is the time itself.
+Slip on a plane under friction and rolling under rolling resistance are both this. In parabolic
+coordinates, u = (P^2 - Q^2) ex + 2 P Q ey with speed s = P^2 + Q^2, and with dt = s dq instead of
+time, the motion is linear: P' = -(a - G)/2 P, Q' = -(a + G)/2 Q. So speed, direction, time and
+displacement are sums of exponentials of q; q grows without bound as the particle stops, and the
+stop itself is one of its values: q = inf. (Levi-Civita's regularization of the Kepler problem is
+the same substitution.) A particle that starts from rest goes straight down the slope; there q is
+the time itself.
 """
+
 from math import exp, expm1, inf, log, sqrt
 from typing import NamedTuple
 
-from ..jit import kernel
 from .vector import add, add_scaled, cross, dot, length, scale, unit
-
+from ..jit import kernel
 
 MOST_EXPONENT = 690.0  # of exp in double precision
 UNREACHED = 1e300
 MOST_ROUNDS = 200
 FAR_TOO_LONG = 4.0  # ratio of times beyond which Newton's method is slow, and bisection takes over
-EXACT = 1e-9  # of the parameter: after so small a correction, which squares the error, only rounding is left
+# of the parameter: after so small a correction, which squares the error, only rounding is left
+EXACT = 1e-9
 
 
 class Braked(NamedTuple):
@@ -39,7 +54,8 @@ def decelerated(u, pull, brake, normal):
 
     `u` and `pull` lie in the plane of `normal`. At rest it heads down the slope.
     """
-    # P^2 or Q^2 as (s +- u_x) / 2 cancels where the other is large: it is found from u_y = 2 P Q instead.
+    # P^2 or Q^2 as (s +- u_x) / 2 cancels where the other is large: it is found from u_y = 2 P Q
+    # instead.
     slope = length(pull)
     speed = length(u)
     down = unit(pull, unit(u, (1.0, 0.0, 0.0)))
@@ -108,18 +124,24 @@ def after(motion, q):
     cross_now = 2.0 * sqrt(pp * qq)
     time = _sum(motion.pp, slower, q) + _sum(motion.qq, faster, q)
     velocity = add(scale(pp - qq, motion.down), scale(cross_now, motion.side))
-    ahead = (_sum(motion.pp * motion.pp, 2.0 * slower, q)
-             - _sum(motion.qq * motion.qq, 2.0 * faster, q))
+    ahead = _sum(motion.pp * motion.pp, 2.0 * slower, q) - _sum(
+        motion.qq * motion.qq, 2.0 * faster, q
+    )
     pq = 2.0 * sqrt(motion.pp * motion.qq)
-    sideways = (_sum(pq * motion.pp, slower + motion.brake, q)
-                + _sum(pq * motion.qq, faster + motion.brake, q))
+    sideways = _sum(pq * motion.pp, slower + motion.brake, q) + _sum(
+        pq * motion.qq, faster + motion.brake, q
+    )
     return time, velocity, add(scale(ahead, motion.down), scale(sideways, motion.side))
 
 
 @kernel
 def rate(motion, velocity):
-    """Acceleration at `velocity`; at rest the limit with which the particle comes to rest or leaves it."""
-    # A braked particle comes to rest moving straight down the slope, or straight up it where P is zero.
+    """Acceleration at `velocity`.
+
+    At rest the limit with which the particle comes to rest or leaves it.
+    """
+    # A braked particle comes to rest moving straight down the slope, or straight up it where P is
+    # zero.
     speed = length(velocity)
     pull = scale(motion.slope, motion.down)
     if speed > 0.0:
@@ -135,8 +157,9 @@ def half_way(motion, q):
     """Parameter at about half the time to `q`, or, where that is infinite, at half the speed."""
     if q < inf:
         return 0.5 * q
-    slowing = (motion.pp * (motion.brake - motion.slope)
-               + motion.qq * (motion.brake + motion.slope)) / (motion.pp + motion.qq)
+    slowing = (
+        motion.pp * (motion.brake - motion.slope) + motion.qq * (motion.brake + motion.slope)
+    ) / (motion.pp + motion.qq)
     if slowing > 0.0:
         return log(2.0) / slowing
     return 1.0 / (motion.brake + motion.slope)
@@ -146,8 +169,9 @@ def half_way(motion, q):
 def parameter_at(motion, time):
     """Parameter q at `time` [s], which must lie before the stop.
 
-    Newton's method, safeguarded by a bracket. From far beyond, where time grows exponentially, it would come
-    back by no more than a unit of the exponent an iteration: there the bracket is bisected.
+    Newton's method, safeguarded by a bracket. From far beyond, where time grows exponentially, it
+    would come back by no more than a unit of the exponent an iteration: there the bracket is
+    bisected.
     """
     if starts_at_rest(motion):
         return time

@@ -1,14 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Impulse of a frictional impact: ball against ground, ball against ball, ball against obstacle.
 
-Normal: (1 + e) times the approach (Newton's restitution). Tangential: what stops the slip, times one plus the
-tangential restitution, at most dynamic friction times the normal impulse (Coulomb). Fixed ground has no
-inverse mass.
+Normal: (1 + e) times the approach (Newton's restitution). Tangential: what stops the slip, times
+one plus the tangential restitution, at most dynamic friction times the normal impulse (Coulomb).
+Fixed ground has no inverse mass.
 """
+
 from typing import NamedTuple
 
+from .vector import add_scaled, cross, dot, length, load, scale, store
 from ..jit import kernel
-from .vector import add_scaled, cross, dot, length, store, scale, load
 
 
 class ContactProperties(NamedTuple):
@@ -28,14 +42,16 @@ class ContactProperties(NamedTuple):
 @kernel
 def slip(velocity, spin, normal, radius):
     """Slip [m/s]: tangential velocity of the ball's material point at the contact of `normal`."""
-    return add_scaled(add_scaled(velocity, -dot(velocity, normal), normal), -radius, cross(spin, normal))
+    return add_scaled(
+        add_scaled(velocity, -dot(velocity, normal), normal), -radius, cross(spin, normal)
+    )
 
 
 @kernel
 def friction(bond, strength, sliding):
     """Tangential impulse [N s] against the slip `sliding`, for a normal impulse of `strength` [N s]."""
-    # A tangential impulse turns the ball, too: the effective mass at the contact point is k / (1 + k) of the
-    # mass, with k the moment of inertia over m r^2.
+    # A tangential impulse turns the ball, too: the effective mass at the contact point is k / (1 +
+    # k) of the mass, with k the moment of inertia over m r^2.
     grip = (1.0 + bond.tangential) * bond.mass * bond.inertia / (1.0 + bond.inertia)
     needed = grip * length(sliding)
     if needed > bond.friction * strength:
@@ -50,7 +66,9 @@ def impulse(bond, velocity, spin, normal, radius):
     For two balls `spin` is the sum of both spins: each turns its own surface at the contact.
     """
     strength = max(-(1.0 + bond.restitution) * bond.mass * dot(velocity, normal), 0.0)
-    return add_scaled(friction(bond, strength, slip(velocity, spin, normal, radius)), strength, normal)
+    return add_scaled(
+        friction(bond, strength, slip(velocity, spin, normal, radius)), strength, normal
+    )
 
 
 @kernel

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Density and viscosity of the air."""
+
 from math import exp
 from typing import NamedTuple
 
@@ -42,7 +56,7 @@ def density(air):
 
 def viscosity(air):
     """Dynamic viscosity [Pa s] of `air` by Sutherland's law."""
-    return 1.458e-6 * air.temperature ** 1.5 / (air.temperature + 110.4)
+    return 1.458e-6 * air.temperature**1.5 / (air.temperature + 110.4)
 
 
 def standard_atmosphere(altitude):

@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Material of a surface: restitution, friction, rolling resistance, softness."""
+
 from typing import NamedTuple
 
 import numpy as np
@@ -50,7 +64,8 @@ class Material(NamedTuple):
     color : tuple of 3 floats
         Red, green, blue, 0..1.
     drag : float
-        Over 0 a ball passes through, as through leaves, and is braked by drag v^2 at speed v [1/m].
+        Over 0 a ball passes through, as through leaves, and is braked by drag v^2 at speed v
+        [1/m].
     """
 
     name: str = 'ideal'
@@ -70,10 +85,21 @@ def rolling_resistance_of_stimp(stimp):
     return STIMPMETER_SPEED * STIMPMETER_SPEED / (2 * FOOT * stimp) / STANDARD_GRAVITY
 
 
-MATERIAL = np.dtype([
-    ('e0', 'f8'), ('e1', 'f8'), ('e2', 'f8'), ('floor', 'f8'),
-    ('tangential_restitution', 'f8'), ('static_friction', 'f8'), ('dynamic_friction', 'f8'),
-    ('rolling_resistance', 'f8'), ('pivot_friction', 'f8'), ('softness', 'f8')], align=True)
+MATERIAL = np.dtype(
+    [
+        ('e0', 'f8'),
+        ('e1', 'f8'),
+        ('e2', 'f8'),
+        ('floor', 'f8'),
+        ('tangential_restitution', 'f8'),
+        ('static_friction', 'f8'),
+        ('dynamic_friction', 'f8'),
+        ('rolling_resistance', 'f8'),
+        ('pivot_friction', 'f8'),
+        ('softness', 'f8'),
+    ],
+    align=True,
+)
 
 
 def table(materials):
@@ -82,9 +108,18 @@ def table(materials):
     Static friction is never less than dynamic friction: a contact that slips at once when it grips
     could neither roll nor slide.
     """
-    rows = [(*m.restitution, m.tangential_restitution,
-             max(m.static_friction, m.dynamic_friction), m.dynamic_friction,
-             m.rolling_resistance, m.pivot_friction, m.softness) for m in materials]
+    rows = [
+        (
+            *m.restitution,
+            m.tangential_restitution,
+            max(m.static_friction, m.dynamic_friction),
+            m.dynamic_friction,
+            m.rolling_resistance,
+            m.pivot_friction,
+            m.softness,
+        )
+        for m in materials
+    ]
     return np.array(rows, MATERIAL)
 
 

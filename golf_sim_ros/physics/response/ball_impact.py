@@ -1,25 +1,40 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Impacts of balls with balls."""
+
+from . import contact_set, simultaneous_impact
+from .collision_log import log_impact, NOT_A_PART
+from .time_stepping import begin_time_stepping, return_to_events
 from ..collision import ball_interactions
 from ..collision.ball_gap import gap_between
 from ..collision.ground_contact import GENTLE_APPROACH
-from ..collision.workspace import CONTACTS, MultiBallWorkspace, INVOLVED
+from ..collision.workspace import CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import contact_material_number, touch_down
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import dot, length, store, load
+from ..mechanics.vector import dot, length, load, store
 from ..state.ball import FLIGHT, moves
-from ..state.events import BOUNCE, BALL_HIT
+from ..state.events import BALL_HIT, BOUNCE
 from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import mark_moved_by_ball
-from . import contact_set, simultaneous_impact
-from .collision_log import NOT_A_PART, log_impact
-from .time_stepping import return_to_events, begin_time_stepping
 
 RAPID_BALL_IMPACT = 1e-4  # s between impacts: shorter where balls are coming to rest on each other
 MANY_BALL_IMPACTS = 8
-LEAST_LOGGED_APPROACH = 0.1  # m/s of approach: slower impacts are neither logged nor counted as bounces
+# m/s of approach: slower impacts are neither logged nor counted as bounces
+LEAST_LOGGED_APPROACH = 0.1
 
 
 @ball_interactions.resolve_ball_impact.register(MultiBallWorkspace)
@@ -31,7 +46,8 @@ def _resolve_ball_impact(work, land, balls, i, now, log):
 def collide_balls(land, balls, i, now, work, log):
     """Resolve the impact of ball `i` with its target, and with all that touches; it is logged.
 
-    Impacts that follow each other ever faster hand the balls over to time stepping. Writes ball, work.
+    Impacts that follow each other ever faster hand the balls over to time stepping. Writes ball,
+    work.
     """
     j = balls[i]['target']
     contact_set.add_to_set(work, j)
@@ -41,7 +57,8 @@ def collide_balls(land, balls, i, now, work, log):
         return  # the other ball has been given another segment since this impact was found
     stalls = now - balls[i]['begin'] < RAPID_BALL_IMPACT
     is_stepped = balls[i]['time_stepping'] or balls[j]['time_stepping']
-    if is_stepped:  # a pile passes the impulse on in its next time step: only this pair collides now
+    # a pile passes the impulse on in its next time step: only this pair collides now
+    if is_stepped:
         contact_set.add_ball_contact(land, balls, i, j, work, now)
     else:
         contact_set.collect_contacts(land, balls, work, now, 0)
@@ -49,7 +66,8 @@ def collide_balls(land, balls, i, now, work, log):
     resume_motion(land, balls, now, work, 0)
     for ball in (balls[i], balls[j]):
         if ball['time_stepping']:
-            if rate <= -GENTLE_APPROACH:  # a hard impact goes on at once instead of at the next time step
+            # a hard impact goes on at once instead of at the next time step
+            if rate <= -GENTLE_APPROACH:
                 return_to_events(ball)
             continue
         ball['rapid_impacts'] = ball['rapid_impacts'] + 1 if stalls else 0
@@ -62,8 +80,9 @@ def collide_balls(land, balls, i, now, work, log):
 def resolve_contact_set(land, balls, now, work, first, log):
     """Resolve the impact of the involved balls at all their contacts.
 
-    Logs the impacts; with the ground, those of contacts from row `first` on. Writes velocity, spin, bounces,
-    moved_by_ball, struck_at, contacts, contact_counts, velocity_change, motion_before.
+    Logs the impacts; with the ground, those of contacts from row `first` on. Writes velocity,
+    spin, bounces, moved_by_ball, struck_at, contacts, contact_counts, velocity_change,
+    motion_before.
     """
     for k in range(work.count[INVOLVED]):
         mark_moved_by_ball(balls[work.involved[k]])
@@ -78,7 +97,14 @@ def resolve_contact_set(land, balls, now, work, first, log):
             normal = load(row['normal'])
             material = contact_material_number(land, ball, row['part'], normal)
             hit = BOUNCE, material, surfaces.sort(land.ground, row['part']), normal
-            log_impact(ball, (now, row['a']), hit, motion_before(work, row['a']), load(row['impulse']), log)
+            log_impact(
+                ball,
+                (now, row['a']),
+                hit,
+                motion_before(work, row['a']),
+                load(row['impulse']),
+                log,
+            )
 
 
 @ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
@@ -87,13 +113,22 @@ def _log_ball_impacts(work, balls, now, log):
         row = work.contacts[n]
         if row['b'] >= 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
             hit = BALL_HIT, row['b'], NOT_A_PART, load(row['normal'])
-            log_impact(balls[row['a']], (now, row['a']), hit, motion_before(work, row['a']),
-                       load(row['impulse']), log)
+            log_impact(
+                balls[row['a']],
+                (now, row['a']),
+                hit,
+                motion_before(work, row['a']),
+                load(row['impulse']),
+                log,
+            )
 
 
 @kernel
 def store_motion_before(balls, work):
-    """Store the involved balls' velocity and spin before the impact, for the log. Writes motion_before."""
+    """Store the involved balls' velocity and spin before the impact, for the log.
+
+    Writes motion_before.
+    """
     for k in range(work.count[INVOLVED]):
         i = work.involved[k]
         store(work.motion_before[i, 0:3], load(balls[i]['velocity']))
@@ -121,8 +156,12 @@ def resume_motion(land, balls, now, work, first):
             ball['sleeps_on_ball'] = 0
         # A ball that the impact does not lift off its support keeps sliding or rolling there.
         lift = dot(load(ball['velocity']), load(ball['normal']))
-        if not ball['time_stepping'] and ball['phase'] != FLIGHT and ball['support'] >= 0 and (
-                abs(lift) <= LEAST_SPEED):
+        if (
+            not ball['time_stepping']
+            and ball['phase'] != FLIGHT
+            and ball['support'] >= 0
+            and (abs(lift) <= LEAST_SPEED)
+        ):
             ball['step'] = 0.0
             touch_down(land, ball, now)
         else:

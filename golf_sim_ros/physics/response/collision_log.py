@@ -1,8 +1,22 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Log of collisions: the one writer of events of impacts, with ground, balls and water, and of going out."""
+
 from ..jit import kernel
-from ..mechanics.vector import ZERO, load, store
-from ..state.events import WENT_OUT, next_event
+from ..mechanics.vector import load, store, ZERO
+from ..state.events import next_event, WENT_OUT
 
 NOT_A_PART = -1  # sort, and material, of what is no part of the ground
 
@@ -11,8 +25,9 @@ NOT_A_PART = -1  # sort, and material, of what is no part of the ground
 def log_impact(ball, instant, hit, before, push, log):
     """Log an impact that has just been applied to `ball`.
 
-    `instant` is the time and the ball's number; `hit` the event's kind, material and sort and the normal of
-    what is hit; `before` the velocity and spin before the impact; `push` the impulse [N s].
+    `instant` is the time and the ball's number; `hit` the event's kind, material and sort and the
+    normal of what is hit; `before` the velocity and spin before the impact; `push` the impulse [N
+    s].
     """
     event = next_event(log)
     event['time'] = instant[0]
@@ -34,4 +49,11 @@ def log_out_of_bounds(ball, number, now, log):
     """Log that the ball has gone out of bounds."""
     material = ball['material'] if ball['support'] >= 0 else NOT_A_PART
     motion = load(ball['velocity']), load(ball['spin'])
-    log_impact(ball, (now, number), (WENT_OUT, material, NOT_A_PART, load(ball['normal'])), motion, ZERO, log)
+    log_impact(
+        ball,
+        (now, number),
+        (WENT_OUT, material, NOT_A_PART, load(ball['normal'])),
+        motion,
+        ZERO,
+        log,
+    )

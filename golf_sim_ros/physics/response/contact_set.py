@@ -1,24 +1,39 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Contact set of one instant: the involved balls, and their contacts with the ground and with each other.
 
 A contact set is one island: it starts with one ball and grows by whatever its balls touch.
 """
+
 from ..collision import ball_interactions
 from ..collision.ball_gap import position_at, velocity_at
 from ..collision.broad_phase import next_node
-from ..collision.workspace import CONTACTS, MultiBallWorkspace, INVOLVED
+from ..collision.workspace import CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import contact_material
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import UP, ZERO, dot, length, store, sub, unit, load
+from ..mechanics.vector import dot, length, load, store, sub, unit, UP, ZERO
 from ..properties.material import restitution
-from ..state.ball import FLIGHT, HOLED, STEP_END, moves
+from ..state.ball import FLIGHT, HOLED, moves, STEP_END
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.segment import spin as spin_at
 from ..trajectory.shot_record import update_apex
 
 SIMULTANEOUS_GAP = 1e-9  # m: a gap that small counts as contact at the same instant
-SAME_NORMAL = 1e-9  # 1 - cosine of the angle below which two normals are one: seams give no second contact
+# 1 - cosine of the angle below which two normals are one: seams give no second contact
+SAME_NORMAL = 1e-9
 MOST_MEMBERS = 64  # involved balls of an impact
 
 
@@ -43,8 +58,8 @@ def synchronize(ball, now):
 def collect_contacts(land, balls, work, now, known):
     """Collect the contacts of the involved balls and of all that they touch, brought to the present.
 
-    The first `known` balls have their contacts with the ground already. Writes contacts, involved, motion,
-    end, ending, apex.
+    The first `known` balls have their contacts with the ground already. Writes contacts, involved,
+    motion, end, ending, apex.
     """
     k = 0
     while k < work.count[INVOLVED]:
@@ -58,7 +73,10 @@ def collect_contacts(land, balls, work, now, known):
 
 @kernel
 def add_to_set(work, i):
-    """Add ball `i`, which has been brought to the present, to the involved balls. Writes involved."""
+    """Add ball `i`, which has been brought to the present, to the involved balls.
+
+    Writes involved.
+    """
     work.involved_index[i] = work.count[INVOLVED]
     work.involved[work.count[INVOLVED]] = i
     work.count[INVOLVED] += 1
@@ -75,7 +93,9 @@ def clear_set(work):
 
 @kernel
 def add_contact(work, a, b, part, normal):
-    """Add a contact of ball `a` with ball `b`, or with a part of the ground; its row, or -1 when full.
+    """Add a contact of ball `a` with ball `b`, or with a part of the ground.
+
+    Its row, or -1 when full.
 
     Writes contacts.
     """
@@ -121,7 +141,9 @@ def _collect_ball_contacts(work, land, balls, i, now):
 @kernel
 def add_ball_contact(land, balls, i, j, work, now):
     """Add the contact of balls `i` and `j`. Writes contacts."""
-    n = add_contact(work, i, j, -1, unit(sub(position_at(balls[i], now), position_at(balls[j], now)), UP))
+    n = add_contact(
+        work, i, j, -1, unit(sub(position_at(balls[i], now), position_at(balls[j], now)), UP)
+    )
     if n >= 0:
         row = work.contacts[n]
         row['restitution'] = land.ball.restitution
@@ -136,10 +158,15 @@ def collect_ground_contacts(land, ball, i, work, begin):
 
     The ball's own contacts start at row `begin`.
     """
-    # One contact for each normal: coplanar parts, and faces that share the touched edge, count once.
+    # One contact for each normal: coplanar parts, and faces that share the touched edge, count
+    # once.
     ground = land.ground
     place = load(ball['position'])
-    if ball['support'] >= 0 and ball['phase'] != FLIGHT and is_new_normal(work, begin, load(ball['normal'])):
+    if (
+        ball['support'] >= 0
+        and ball['phase'] != FLIGHT
+        and is_new_normal(work, begin, load(ball['normal']))
+    ):
         normal = load(ball['normal'])
         material = contact_material(land, ball, ball['support'], normal)
         add_ground_contact(land, ball, i, (ball['support'], normal), material, work)
@@ -147,8 +174,11 @@ def collect_ground_contacts(land, ball, i, work, begin):
     part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         distance, normal = surfaces.nearest(ground, part, place)
-        if distance - land.ball.radius <= SIMULTANEOUS_GAP and is_new_normal(work, begin, normal) and (
-                surfaces.touchable(ground, part, place)):
+        if (
+            distance - land.ball.radius <= SIMULTANEOUS_GAP
+            and is_new_normal(work, begin, normal)
+            and (surfaces.touchable(ground, part, place))
+        ):
             material = contact_material(land, ball, part, normal)
             add_ground_contact(land, ball, i, (part, normal), material, work)
         part = surfaces.next_part(ground, part + 1, low, high)
@@ -192,7 +222,10 @@ def separation_rate(balls, row):
 
 @kernel
 def count_approaching(balls, work):
-    """Number of approaching contacts; the support of a rolling ball approaches only by rounding."""
+    """Number of approaching contacts.
+
+    The support of a rolling ball approaches only by rounding.
+    """
     found = 0
     for n in range(work.count[CONTACTS]):
         found += separation_rate(balls, work.contacts[n]) < -LEAST_SPEED

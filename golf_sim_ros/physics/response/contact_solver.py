@@ -1,12 +1,27 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Contact solver of time stepping: projected Gauss-Seidel with friction and warm starting.
 
-Moreau's time stepping. Balls move in straight lines from one instant to the next, so a gap to a convex
-part shrinks by no more than its rate says: where no contact closes faster than gap over step, nothing
-overlaps at the next instant. So contacts are speculative: they count before they touch. Projected
-Gauss-Seidel finds the impulses, starting from those of the step before. Velocities here are those half-way
-through a step (leapfrog), and impulses are per mass.
+Moreau's time stepping. Balls move in straight lines from one instant to the next, so a gap to a
+convex part shrinks by no more than its rate says: where no contact closes faster than gap over
+step, nothing overlaps at the next instant. So contacts are speculative: they count before they
+touch. Projected Gauss-Seidel finds the impulses, starting from those of the step before.
+Velocities here are those half-way through a step (leapfrog), and impulses are per mass.
 """
+
+from .contact_set import add_contact, is_new_normal
 from ..collision.ball_gap import position_at, velocity_at
 from ..collision.broad_phase import next_node
 from ..collision.ground_contact import RESTING_GAP
@@ -15,17 +30,30 @@ from ..contact.contact_state import contact_material, set_support
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import (UP, ZERO, add, add_scaled, cross, dot, length, store, scale, sub, tangential,
-                                unit, load)
-from ..state.ball import HOLED, NO_PART, MOST_STORED, moves
-from .contact_set import is_new_normal, add_contact
+from ..mechanics.vector import (
+    add,
+    add_scaled,
+    cross,
+    dot,
+    length,
+    load,
+    scale,
+    store,
+    sub,
+    tangential,
+    unit,
+    UP,
+    ZERO,
+)
+from ..state.ball import HOLED, MOST_STORED, moves, NO_PART
 
 TIME_STEP = 1.0 / 512.0  # s; a power of two, so that instants are the same for all
 MOST_SWEEPS = 40
 CONVERGED = 2e-5  # m/s: a sweep whose greatest impulse changes less is the last
 MOST_CORRECTIONS = 10  # sweeps over penetrations
 OVERLAP = 1e-7  # m: deeper penetration is corrected
-WALL = 1e-3  # least share of gravity along the normal with which a surface is a support, and no wall
+# least share of gravity along the normal with which a surface is a support, and no wall
+WALL = 1e-3
 
 
 @kernel
@@ -74,8 +102,8 @@ def init_contact(row, gap, friction):
 def neighbours_within(balls, work, i, reach, radius, now):
     """Number of balls within `reach` of ball `i`; whether others are on their way there.
 
-    Writes neighbours. They are in rising order: Gauss-Seidel depends on the order of contacts, which must not
-    depend on the shape of the tree.
+    Writes neighbours. They are in rising order: Gauss-Seidel depends on the order of contacts,
+    which must not depend on the shape of the tree.
     """
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + reach)
@@ -89,7 +117,10 @@ def neighbours_within(balls, work, i, reach, radius, now):
             continue
         if work.involved_index[j] < 0 and moves(balls[j]['phase']):
             watch = True
-        if found < MOST_NEIGHBOURS and length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= reach:
+        if (
+            found < MOST_NEIGHBOURS
+            and length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= reach
+        ):
             k = found  # insertion sort
             while k > 0 and work.neighbours[k - 1] > j:
                 work.neighbours[k] = work.neighbours[k - 1]
@@ -103,12 +134,15 @@ def neighbours_within(balls, work, i, reach, radius, now):
 def add_resting_contact(land, balls, work, i, j, now):
     """Add the contact of ball `i` with ball `j`, which is involved or asleep. Writes contacts.
 
-    A sleeper is of infinite mass: in the contact it has no `b`, and its number stands in `part` as -2 - j.
+    A sleeper is of infinite mass: in the contact it has no `b`, and its number stands in `part` as
+    -2 - j.
     """
     apart = sub(load(balls[i]['position']), position_at(balls[j], now))
     row = add_contact(work, i, j if work.involved_index[j] >= 0 else -1, -2 - j, unit(apart, UP))
     if row >= 0:
-        init_contact(work.contacts[row], length(apart) - 2.0 * land.ball.radius, land.ball.friction)
+        init_contact(
+            work.contacts[row], length(apart) - 2.0 * land.ball.radius, land.ball.friction
+        )
 
 
 @kernel
@@ -148,11 +182,15 @@ def sweep_positions(work, backward):
         if overlap > 0.0:
             most = max(most, overlap)
             share = 0.5 if row['b'] >= 0 else 1.0
-            store(work.position_change[row['a']], add_scaled(
-                load(work.position_change[row['a']]), share * overlap, normal))
+            store(
+                work.position_change[row['a']],
+                add_scaled(load(work.position_change[row['a']]), share * overlap, normal),
+            )
             if row['b'] >= 0:
-                store(work.position_change[row['b']], add_scaled(
-                    load(work.position_change[row['b']]), -share * overlap, normal))
+                store(
+                    work.position_change[row['b']],
+                    add_scaled(load(work.position_change[row['b']]), -share * overlap, normal),
+                )
     return most
 
 
@@ -164,7 +202,10 @@ def contact_partner(row):
 
 @shared
 def warm_start(land, balls, work):
-    """Start from the impulses of the step before. Writes normal_impulse, tangent_impulse, solved_motion."""
+    """Start from the impulses of the step before.
+
+    Writes normal_impulse, tangent_impulse, solved_motion.
+    """
     for n in range(work.count[CONTACTS]):
         row = work.contacts[n]
         ball = balls[row['a']]
@@ -172,7 +213,8 @@ def warm_start(land, balls, work):
             if ball['stored_partners'][k] == contact_partner(row):
                 row['normal_impulse'] = ball['stored_impulses'][k, 0]
                 rub = load(ball['stored_impulses'][k, 1:4])
-                # The normal has turned since: what is left of the old impulse along the new tangent plane.
+                # The normal has turned since: what is left of the old impulse along the new
+                # tangent plane.
                 store(row['tangent_impulse'], tangential(rub, load(row['normal'])))
                 apply_normal_impulse(work, row, scale(row['normal_impulse'], load(row['normal'])))
                 apply_tangent_impulse(work, row, load(row['tangent_impulse']), land.ball)
@@ -181,7 +223,10 @@ def warm_start(land, balls, work):
 
 @shared
 def store_impulses(balls, work):
-    """Store the impulses for the next warm start. Writes stored_count, stored_partners, stored_impulses."""
+    """Store the impulses for the next warm start.
+
+    Writes stored_count, stored_partners, stored_impulses.
+    """
     for k in range(work.count[INVOLVED]):
         balls[work.involved[k]]['stored_count'] = 0
     for n in range(work.count[CONTACTS]):
@@ -207,7 +252,10 @@ def apply_normal_impulse(work, row, change):
 
 @kernel
 def apply_tangent_impulse(work, row, rub, record):
-    """Apply the tangential impulse over mass `rub` to both bodies of a contact. Writes solved_motion."""
+    """Apply the tangential impulse over mass `rub` to both bodies of a contact.
+
+    Writes solved_motion.
+    """
     apply_normal_impulse(work, row, rub)
     twist = scale(-1.0 / (record.inertia * record.radius), cross(load(row['normal']), rub))
     a = work.solved_motion[row['a'], 3:6]
@@ -244,8 +292,11 @@ def sweep_impulses(land, work, backward):
         share = 0.5 if row['b'] >= 0 else 1.0  # reduced mass over mass
         velocity, spin = relative_motion(work, row)
         rate = dot(velocity, normal)
-        # The accumulated impulse is clamped, not its change; the gap may close within the step, no further.
-        needed = max(row['normal_impulse'] - share * (rate + max(row['separation'], 0.0) / TIME_STEP), 0.0)
+        # The accumulated impulse is clamped, not its change; the gap may close within the step, no
+        # further.
+        needed = max(
+            row['normal_impulse'] - share * (rate + max(row['separation'], 0.0) / TIME_STEP), 0.0
+        )
         change = needed - row['normal_impulse']
         if change != 0.0:
             row['normal_impulse'] = needed
@@ -253,10 +304,13 @@ def sweep_impulses(land, work, backward):
             most = max(most, abs(change))
         before = load(row['tangent_impulse'])
         if needed > 0.0 or dot(before, before) > 0.0:
-            sliding = sub(add_scaled(velocity, -rate, normal), scale(land.ball.radius, cross(spin, normal)))
+            sliding = sub(
+                add_scaled(velocity, -rate, normal), scale(land.ball.radius, cross(spin, normal))
+            )
             rub = add_scaled(before, -share * grip, sliding)
             size = length(rub)
-            # Projection onto Coulomb's cone: a disc, not a pyramid, so that friction has no preferred axes.
+            # Projection onto Coulomb's cone: a disc, not a pyramid, so that friction has no
+            # preferred axes.
             if size > row['friction'] * needed:
                 rub = scale(row['friction'] * needed / size, rub)
             apply_tangent_impulse(work, row, sub(rub, before), land.ball)
@@ -321,7 +375,10 @@ def count_support(land, balls, row):
 
 @kernel
 def limit_speed(ball, speed):
-    """Scale the ball's velocity to `speed` [m/s], and its spin by the same factor. Writes motion."""
+    """Scale the ball's velocity to `speed` [m/s], and its spin by the same factor.
+
+    Writes motion.
+    """
     before = length(load(ball['velocity']))
     if before > 0.0:
         store(ball['velocity'], scale(speed / before, load(ball['velocity'])))

@@ -1,33 +1,57 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Impact with the ground: the impulse, and whether the ball flies, slides or rolls afterwards."""
+
+from . import contact_set
+from .ball_impact import LEAST_LOGGED_APPROACH, resolve_contact_set, resume_motion
+from .collision_log import log_impact
+from .contact_solver import is_pressed_by_gravity
+from .time_stepping import return_to_events
+from .wedged_ball import is_wedged, RAPID, step_wedged
 from ..collision.workspace import INVOLVED
-from ..contact.contact_state import (heading, contact_material_number, choose_contact_mode, set_support,
-                                     touch_down)
+from ..contact.contact_state import (
+    choose_contact_mode,
+    contact_material_number,
+    heading,
+    set_support,
+    touch_down,
+)
 from ..effects import effective_normal, gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.impulse import ContactProperties, impulse, apply_impulse
-from ..mechanics.vector import ZERO, add_scaled, dot, length, store, scale, sub, tangential, load
+from ..mechanics.impulse import apply_impulse, ContactProperties, impulse
+from ..mechanics.vector import add_scaled, dot, length, load, scale, store, sub, tangential, ZERO
 from ..properties.material import restitution
 from ..state.ball import FLIGHT
 from ..state.events import BOUNCE
 from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import record_landing
-from . import contact_set
-from .ball_impact import LEAST_LOGGED_APPROACH, resolve_contact_set, resume_motion
-from .collision_log import log_impact
-from .contact_solver import is_pressed_by_gravity
-from .time_stepping import return_to_events
-from .wedged_ball import RAPID, step_wedged, is_wedged
 
-SEAM = 1e-6  # 1 - cosine of the angle below which one surface continues another: no impact between them
-WALL_REBOUND = 1e-4  # m/s: least rebound from a wall, or a ball pushed against it would impact without end
-# Of the ball's speed: the same for a concave wall, around which one turn would be thousands of impacts.
+# 1 - cosine of the angle below which one surface continues another: no impact between them
+SEAM = 1e-6
+# m/s: least rebound from a wall, or a ball pushed against it would impact without end
+WALL_REBOUND = 1e-4
+# Of the ball's speed: the same for a concave wall, around which one turn would be thousands of
+# impacts.
 HOLLOW_REBOUND = 0.01
 SLOW_FOR_AIR = 8.0  # m/s: speed from which the air's share of the micro-bounces counts
-STEADY_RATIO = 0.1  # of 1 - e0: by so much restitution may grow with the approach and be summed all the same
-LAST_SHARE = 0.1  # of the threshold of micro-bounces: below this they are summed without what turf adds
+# of 1 - e0: by so much restitution may grow with the approach and be summed all the same
+STEADY_RATIO = 0.1
+# of the threshold of micro-bounces: below this they are summed without what turf adds
+LAST_SHARE = 0.1
 LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
@@ -49,8 +73,11 @@ def resolve_ground_impact(land, balls, i, now, work, log):
         set_support(land, ball, surfaces.support_of(land.ground, ball['target']), normal)
         choose_contact_mode(land, ball, now)
         return
-    alone = not supported and surfaces.is_alone(land.ground, ball['target'], place, land.ball.radius)
-    # Of coplanar parts the latest in the course gives the material, whichever the search has found first.
+    alone = not supported and surfaces.is_alone(
+        land.ground, ball['target'], place, land.ball.radius
+    )
+    # Of coplanar parts the latest in the course gives the material, whichever the search has found
+    # first.
     if not alone:
         part, same = surfaces.touched(land.ground, place, land.ball.radius, ZERO)
         if part >= 0 and dot(same, normal) > 1.0 - 1e-9:
@@ -75,7 +102,8 @@ def resolve_ground_impact(land, balls, i, now, work, log):
         hit = BOUNCE, number, surfaces.sort(land.ground, ball['target']), normal
         push = scale(land.ball.mass, sub(load(ball['velocity']), before[0]))
         log_impact(ball, (now, i), hit, before, push, log)
-    # One longer segment among many short ones does not reset the count: between two lips they come in waves.
+    # One longer segment among many short ones does not reset the count: between two lips they come
+    # in waves.
     if now - ball['begin'] < RAPID:
         ball['rapid_impacts'] += 1
     else:
@@ -93,9 +121,16 @@ def apply_bounce(land, ball, normal, material):
     before = load(ball['velocity'])
     felt = effective_normal(land.effects, normal, before, material['softness'])
     e = restitution(material, -dot(before, felt))
-    bond = ContactProperties(e, material['tangential_restitution'], material['dynamic_friction'],
-                             land.ball.mass, land.ball.inertia)
-    apply_impulse(ball, impulse(bond, before, load(ball['spin']), felt, land.ball.radius), felt, land.ball)
+    bond = ContactProperties(
+        e,
+        material['tangential_restitution'],
+        material['dynamic_friction'],
+        land.ball.mass,
+        land.ball.inertia,
+    )
+    apply_impulse(
+        ball, impulse(bond, before, load(ball['spin']), felt, land.ball.radius), felt, land.ball
+    )
     rebound = dot(load(ball['velocity']), normal)
     if rebound < 0.0:  # soft turf tilts the normal, which may leave velocity into the true surface
         store(ball['velocity'], add_scaled(load(ball['velocity']), -rebound, normal))
@@ -107,7 +142,8 @@ def choose_after_impact(land, ball, now, impact, normal, material):
 
     Writes phase, step, contact, micro_bounces, velocity, spin.
 
-    The ball flies, or stays on what it hit if gravity presses it there, or on what it was on before.
+    The ball flies, or stays on what it hit if gravity presses it there, or on what it was on
+    before.
     """
     supported, approach, rebound = impact
     if is_pressed_by_gravity(land, ball, normal):
@@ -116,8 +152,8 @@ def choose_after_impact(land, ball, now, impact, normal, material):
         if rebound < micro_bounce_threshold(land, ball):
             bounciness = effective_restitution(land, ball, normal, material, rebound)
         if bounciness < 1.0:
-            # Micro-bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all; their normal impulses
-            # over mass sum to v (1 + e) / (1 - e): (1 + e) / 2 of the weight on average.
+            # Micro-bounces of speed v, e v, e^2 v ... last 2 v / (g (1 - e)) in all; their normal
+            # impulses over mass sum to v (1 + e) / (1 - e): (1 + e) / 2 of the weight on average.
             ball['micro_bounce_end'] = now + 2.0 * rebound / (press * (1.0 - bounciness))
             ball['micro_bounce_load'] = 0.5 * (1.0 + bounciness)
             set_support(land, ball, surfaces.support_of(land.ground, ball['target']), normal)
@@ -137,13 +173,16 @@ def choose_after_impact(land, ball, now, impact, normal, material):
 
 @kernel
 def effective_restitution(land, ball, normal, material, rebound):
-    """Constant restitution with which the remaining bounces would last as long in all; 1 to follow them.
+    """Constant restitution with which the remaining bounces would last as long in all.
 
-    Restitution changes from e0 with the approach, by its own law and as soft turf throws a fast ball up. To
-    first order the sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): that of a constant
-    restitution, the one at an approach of v / (1 + e0). Where that is much more than e0, first order does not
-    do, and bounces are followed one by one. A turf law that does not fade with the approach has no such sum
-    at all: of the very last bounces it is left out.
+    1 to follow them.
+
+    Restitution changes from e0 with the approach, by its own law and as soft turf throws a fast
+    ball up. To first order the sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 -
+    e0^2)): that of a constant restitution, the one at an approach of v / (1 + e0). Where that is
+    much more than e0, first order does not do, and bounces are followed one by one. A turf law
+    that does not fade with the approach has no such sum at all: of the very last bounces it is
+    left out.
     """
     if rebound <= LEAST_SPEED:
         return 0.0
@@ -172,10 +211,13 @@ def wall_rebound(land, ball):
 def micro_bounce_threshold(land, ball):
     """Rebound [m/s] below which the remaining bounces are summed as micro-bounces: less for a fast ball.
 
-    The air acts on their sum at once, a little early: an error of position in proportion to the square of the
-    speed and to the square of the time that they last.
+    The air acts on their sum at once, a little early: an error of position in proportion to the
+    square of the speed and to the square of the time that they last.
     """
-    return max(land.limits.settle / (1.0 + length(load(ball['velocity'])) / SLOW_FOR_AIR), LEAST_MICRO_BOUNCE)
+    return max(
+        land.limits.settle / (1.0 + length(load(ball['velocity'])) / SLOW_FOR_AIR),
+        LEAST_MICRO_BOUNCE,
+    )
 
 
 @shared
@@ -190,6 +232,8 @@ def cross_border(land, ball, now):
         take_off(ball)
         return
     distance, normal = surfaces.under(land.ground, part, load(ball['position']), ahead)
-    store(ball['position'], add_scaled(load(ball['position']), land.ball.radius - distance, normal))
+    store(
+        ball['position'], add_scaled(load(ball['position']), land.ball.radius - distance, normal)
+    )
     set_support(land, ball, part, normal)
     choose_contact_mode(land, ball, now)

@@ -1,20 +1,34 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Simultaneous impacts: contacts of one instant that share a ball, independent of their order in memory.
 
 Generalized reflections (Smith, Kaufman, Vouga, Tamstorf, Grinspun, "Reflections on Simultaneous
-Impact", ACM Trans. Graph. 31 (2012) 106): the approach of all active contacts is projected out together
-with non-negative impulses, each impulse is applied 1 + e times, and that is repeated until no contact
-approaches. The projection is a linear complementarity problem, solved by Nesterov's accelerated projected
-gradient method: every contact is treated alike, so that neither the order in memory nor left and right
-count, as they would in Gauss-Seidel sweeps.
+Impact", ACM Trans. Graph. 31 (2012) 106): the approach of all active contacts is projected out
+together with non-negative impulses, each impulse is applied 1 + e times, and that is repeated
+until no contact approaches. The projection is a linear complementarity problem, solved by
+Nesterov's accelerated projected gradient method: every contact is treated alike, so that neither
+the order in memory nor left and right count, as they would in Gauss-Seidel sweeps.
 """
+
 from math import sqrt
 
+from .contact_set import separation_rate
 from ..collision.workspace import CONTACTS, INVOLVED
 from ..jit import kernel, shared
-from ..mechanics.impulse import ContactProperties, friction, slip, apply_impulse
-from ..mechanics.vector import ZERO, add, add_scaled, dot, length, store, scale, sub, load
-from .contact_set import separation_rate
+from ..mechanics.impulse import apply_impulse, ContactProperties, friction, slip
+from ..mechanics.vector import add, add_scaled, dot, length, load, scale, store, sub, ZERO
 
 MOST_REFLECTIONS = 200
 MOST_GRADIENT_STEPS = 3000
@@ -37,8 +51,9 @@ def solve_reflections(land, balls, work):
             row = contacts[n]
             row['rate'] = separation_rate(balls, row)
             row['approach_speed'] = max(row['approach_speed'], -row['rate'])
-            # The last round has no restitution and takes all contacts as active: afterwards none approaches.
-            # Rounding leaves rates of about 1e-16 of the fastest ball's speed, which are no approach.
+            # The last round has no restitution and takes all contacts as active: afterwards none
+            # approaches. Rounding leaves rates of about 1e-16 of the fastest ball's speed, which
+            # are no approach.
             row['active'] = row['rate'] < -1e-12 * fastest or round_ == MOST_REFLECTIONS - 1
             approaching |= row['rate'] < -1e-12 * fastest
         if not approaching:
@@ -60,7 +75,9 @@ def project_impulses(work):
     if active == 1:  # closed form: two balls share the change of the rate
         for n in range(count):
             row = contacts[n]
-            row['normal_impulse'] = -row['rate'] / (2.0 if row['b'] >= 0 else 1.0) if row['active'] else 0.0
+            row['normal_impulse'] = (
+                -row['rate'] / (2.0 if row['b'] >= 0 else 1.0) if row['active'] else 0.0
+            )
         return
     most = 0.0
     for n in range(count):
@@ -69,8 +86,8 @@ def project_impulses(work):
         row['previous_impulse'] = 0.0
         row['extrapolated_impulse'] = 0.0
         if row['active']:
-            # A bound on the row sums of the Delassus matrix, from impulses to rates, is one on its largest
-            # eigenvalue: its inverse is a step length that always converges.
+            # A bound on the row sums of the Delassus matrix, from impulses to rates, is one on its
+            # largest eigenvalue: its inverse is a step length that always converges.
             most = max(most, (2.0 if row['b'] >= 0 else 1.0) * row['contact_count'])
     momentum = 1.0
     for _ in range(MOST_GRADIENT_STEPS):
@@ -107,7 +124,8 @@ def project_impulses(work):
 def count_contacts(work):
     """Number of active contacts. Writes contact_counts, contact_count.
 
-    The first is that of each ball, the other that of the one of a contact's balls that has more of them.
+    The first is that of each ball, the other that of the one of a contact's balls that has more of
+    them.
     """
     for k in range(work.count[INVOLVED]):
         work.contact_counts[work.involved[k]] = 0.0
@@ -129,7 +147,10 @@ def count_contacts(work):
 
 @kernel
 def apply_extrapolated(work):
-    """Sum up what the contacts' `extrapolated_impulse` changes of the velocities. Writes velocity_change."""
+    """Sum up what the contacts' `extrapolated_impulse` changes of the velocities.
+
+    Writes velocity_change.
+    """
     for k in range(work.count[INVOLVED]):
         store(work.velocity_change[work.involved[k]], ZERO)
     for n in range(work.count[CONTACTS]):
@@ -165,13 +186,14 @@ def apply_impulses(land, balls, work, last):
             e = 0.0 if last else row['restitution']
             row['normal_impulse'] *= (1.0 + e) * land.ball.mass
             apply_to_both(land, balls, row, scale(row['normal_impulse'], load(row['normal'])))
-    # All tangential impulses are found before any is applied (Jacobi, not Gauss-Seidel), and the contacts of
-    # a ball share its slip: so no contact comes first.
+    # All tangential impulses are found before any is applied (Jacobi, not Gauss-Seidel), and the
+    # contacts of a ball share its slip: so no contact comes first.
     for n in range(work.count[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            bond = ContactProperties(0.0, row['tangential_restitution'],
-                                     row['friction'], row['mass'], land.ball.inertia)
+            bond = ContactProperties(
+                0.0, row['tangential_restitution'], row['friction'], row['mass'], land.ball.inertia
+            )
             rub = friction(bond, row['normal_impulse'], contact_slip(land, balls, row))
             store(row['tangent_impulse'], scale(1.0 / row['contact_count'], rub))
     for n in range(work.count[CONTACTS]):

@@ -1,39 +1,64 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Moreau time stepping of balls in lasting contact with balls: piles, racks, two balls in a bowl.
 
-Event by event their impacts would follow each other ever faster (Zeno). Such balls are time-stepped: they
-move in small steps, all at the same instants, at each of which their contacts are solved together
-(contact_solver.py). A ball without contact returns to flight, one with contact to the ground alone to sliding
-or rolling. A ball that has been still for a while falls asleep; it wakes when it is touched or when what it
-rests on moves.
+Event by event their impacts would follow each other ever faster (Zeno). Such balls are
+time-stepped: they move in small steps, all at the same instants, at each of which their contacts
+are solved together (contact_solver.py). A ball without contact returns to flight, one with contact
+to the ground alone to sliding or rolling. A ball that has been still for a while falls asleep; it
+wakes when it is touched or when what it rests on moves.
 
-The velocity of a time-stepped ball is that half-way through its step (leapfrog), so that a step in free fall
-is exact; one that has only just joined has its velocity at the start.
+The velocity of a time-stepped ball is that half-way through its step (leapfrog), so that a step in
+free fall is exact; one that has only just joined has its velocity at the start.
 """
+
 from math import floor
 
+from .contact_set import add_to_set, synchronize
+from .contact_solver import (
+    add_ground_contacts,
+    add_resting_contact,
+    contact_reach,
+    correct_positions,
+    count_support,
+    gap_rate,
+    limit_speed,
+    neighbours_within,
+    solve_contacts,
+    TIME_STEP,
+    write_back,
+)
+from .wedged_ball import is_wedged, MANY_RAPID_IMPACTS
 from ..collision import ball_interactions
 from ..collision.ball_gap import position_at
 from ..collision.broad_phase import next_node
 from ..collision.ground_contact import RESTING_GAP
-from ..collision.workspace import ASLEEP, CONTACTS, MultiBallWorkspace, INVOLVED
+from ..collision.workspace import ASLEEP, CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import touch_down
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, add_scaled, length, store, scale, sub, load
-from ..state.ball import HOLED, JOINED, NO_PART, STEPPED, REST, STEP_END
+from ..mechanics.vector import add_scaled, length, load, scale, store, sub, ZERO
+from ..state.ball import HOLED, JOINED, NO_PART, REST, STEP_END, STEPPED
 from ..state.transitions import come_to_rest, take_off
 from ..trajectory.segment import fit_segment
 from ..trajectory.shot_record import mark_moved_by_ball
-from .contact_set import synchronize, add_to_set
-from .contact_solver import (TIME_STEP, add_resting_contact, gap_rate, contact_reach, write_back,
-                             add_ground_contacts, count_support, neighbours_within, correct_positions,
-                             solve_contacts, limit_speed)
-from .wedged_ball import MANY_RAPID_IMPACTS, is_wedged
 
 WAKING_APPROACH = 1e-3  # m/s: normal relative velocity, of either sign, that wakes a sleeper
-DAMPED_SPEED = 0.02  # m/s: slower balls of a pile are damped, for the sweeps never converge completely
+# m/s: slower balls of a pile are damped, for the sweeps never converge completely
+DAMPED_SPEED = 0.02
 DAMPING = 0.9  # factor of the velocity a step
 STILL_SPEED = 4e-3  # m/s, of velocity and of spin times radius: slower counts as still
 STEPS_TO_SLEEP = 50  # still steps after which a ball falls asleep: a tenth of a second
@@ -54,7 +79,10 @@ def is_step_time(now):
 
 @kernel
 def begin_time_stepping(ball):
-    """Switch a ball from events to time stepping. Writes phase, pile, step, moved_by_ball, struck_at."""
+    """Switch a ball from events to time stepping.
+
+    Writes phase, pile, step, moved_by_ball, struck_at.
+    """
     mark_moved_by_ball(ball)
     ball['sleeps_on_ball'] = 0
     ball['time_stepping'] = JOINED
@@ -90,8 +118,11 @@ def touches_ball(balls, work, i, radius, now):
     at = next_node(work, 0, low, high)
     while at >= 0:
         j = work.nodes[at]['ball']
-        if j != i and balls[j]['phase'] != HOLED and (
-                length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= RESTING_GAP):
+        if (
+            j != i
+            and balls[j]['phase'] != HOLED
+            and (length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= RESTING_GAP)
+        ):
             return True
         at = next_node(work, at + 1, low, high)
     return False
@@ -124,8 +155,14 @@ def _wake(work, balls, radius, now):
             j = work.nodes[at]['ball']
             at = next_node(work, at + 1, low, high)
             other = balls[j]
-            if work.involved_index[j] < 0 and other['phase'] == REST and other['sleeps_on_ball'] and (
-                    length(sub(here, load(other['position']))) - 2.0 * radius <= 2.0 * RESTING_GAP):
+            if (
+                work.involved_index[j] < 0
+                and other['phase'] == REST
+                and other['sleeps_on_ball']
+                and (
+                    length(sub(here, load(other['position']))) - 2.0 * radius <= 2.0 * RESTING_GAP
+                )
+            ):
                 add_to_set(work, j)
                 begin_time_stepping(other)
 
@@ -134,7 +171,11 @@ def _wake(work, balls, radius, now):
 def solve_time_step(land, balls, now, work):
     """Solve one time step of all time-stepped balls that are due. Writes ball, work."""
     for i in range(len(balls)):
-        if balls[i]['time_stepping'] and work.segment_ends[i] == now and work.involved_index[i] < 0:
+        if (
+            balls[i]['time_stepping']
+            and work.segment_ends[i] == now
+            and work.involved_index[i] < 0
+        ):
             add_to_set(work, i)
             synchronize(balls[i], now)
     # Gravity first: contacts have to hold a ball against it.
@@ -153,7 +194,9 @@ def solve_time_step(land, balls, now, work):
 
 @kernel
 def apply_gravity(land, balls, work, i):
-    """Apply gravity to a ball up to half-way through its next step. Writes solved_motion, time_stepping.
+    """Apply gravity to a ball up to half-way through its next step.
+
+    Writes solved_motion, time_stepping.
 
     Leapfrog: a ball that has only just joined gets half a step of it.
     """
@@ -169,7 +212,8 @@ def apply_gravity(land, balls, work, i):
 def collect_resting_contacts(land, balls, work, now):
     """Collect the contacts of the involved balls within reach; sleepers that they push join.
 
-    Writes contacts, involved, neighbours, solved_motion, pile, phase, step, struck_at, moved_by_ball.
+    Writes contacts, involved, neighbours, solved_motion, pile, phase, step, struck_at,
+    moved_by_ball.
     """
     reach = contact_reach(work)
     k = 0
@@ -187,7 +231,11 @@ def collect_resting_contacts(land, balls, work, now):
                 if balls[j]['phase'] != REST:
                     continue  # it moves from event to event: its impact is an event of its own
                 rate = gap_rate(balls, i, j, now)
-                if rate < -WAKING_APPROACH or balls[j]['sleeps_on_ball'] and rate > WAKING_APPROACH:
+                if (
+                    rate < -WAKING_APPROACH
+                    or balls[j]['sleeps_on_ball']
+                    and rate > WAKING_APPROACH
+                ):
                     begin_time_stepping(balls[j])
                     add_to_set(work, j)
                     apply_gravity(land, balls, work, j)
@@ -216,7 +264,12 @@ def choose_after_step(land, ball, now, work):
         work.count[ASLEEP] |= ball['sleeps_on_ball']
         return_to_events(ball)
         come_to_rest(ball)
-    elif ball['held_by'] == 0 or speed > FREE_SPEED or ball['held_by'] == 1 and ball['support'] != NO_PART:
+    elif (
+        ball['held_by'] == 0
+        or speed > FREE_SPEED
+        or ball['held_by'] == 1
+        and ball['support'] != NO_PART
+    ):
         return_to_events(ball)
         # Back from half-way through the step (leapfrog) to the velocity at its start.
         weight = gravity_at(land.effects, load(ball['position']))

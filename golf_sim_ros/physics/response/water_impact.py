@@ -1,21 +1,35 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Impact with water: a ball ricochets or enters, sinks, and its shot is over."""
+
 from math import asin, pi, sqrt
 
+from .collision_log import log_impact, NOT_A_PART
 from ..jit import kernel, shared
-from ..mechanics.vector import UP, dot, length, store, scale, sub, load
+from ..mechanics.vector import dot, length, load, scale, store, sub, UP
 from ..properties.water import ADDED_MASS, WATER_DENSITY
-from ..state.ball import FLIGHT, NO_PART, moves
+from ..state.ball import FLIGHT, moves, NO_PART
 from ..state.events import WATER_HIT
 from ..trajectory.shot_record import record_landing
-from .collision_log import NOT_A_PART, log_impact
 
-# Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998) 15-24: a
-# sphere ricochets off water that it hits at less than 18 degrees over the root of its specific gravity. For a
-# golf ball that is 16.9 degrees.
+# Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998)
+# 15-24: a sphere ricochets off water that it hits at less than 18 degrees over the root of its
+# specific gravity. For a golf ball that is 16.9 degrees.
 CRITICAL_ANGLE = 18.0 * pi / 180
-# That holds for balls so fast that their weight does not count. Estimates: the slowest that ricochets, and
-# what it keeps of its speed along the water, upwards, and of its spin.
+# That holds for balls so fast that their weight does not count. Estimates: the slowest that
+# ricochets, and what it keeps of its speed along the water, upwards, and of its spin.
 SKIPS_AT = 10.0  # m/s
 ALONG_KEPT = 0.7
 UPWARD_KEPT = 0.6
@@ -36,8 +50,8 @@ def specific_gravity(record):
 def resolve_water_impact(land, ball, number, now, log):
     """Resolve the impact of ball `number` with water, ricochet or entry, and log it.
 
-    A ball that enters shares its momentum with its added mass. Writes water, velocity, spin, contact, step,
-    pile, landing, bounces.
+    A ball that enters shares its momentum with its added mass. Writes water, velocity, spin,
+    contact, step, pile, landing, bounces.
     """
     record_landing(ball, now)
     velocity = load(ball['velocity'])
@@ -51,7 +65,8 @@ def resolve_water_impact(land, ball, number, now, log):
     else:
         ball['water'] = ball['target']
         store(ball['velocity'], scale(heavy / (heavy + ADDED_MASS), velocity))
-        # A ball that rolls in keeps its support: its shot ends there as one that touches ground under water.
+        # A ball that rolls in keeps its support: its shot ends there as one that touches ground
+        # under water.
         if ball['phase'] == FLIGHT:
             ball['support'] = NO_PART
     store(ball['normal'], UP)
@@ -59,7 +74,9 @@ def resolve_water_impact(land, ball, number, now, log):
     ball['rapid_impacts'] = 0
     ball['time_stepping'] = 0
     push = scale(land.ball.mass, sub(load(ball['velocity']), velocity))
-    log_impact(ball, (now, number), (WATER_HIT, NOT_A_PART, NOT_A_PART, UP), (velocity, spin), push, log)
+    log_impact(
+        ball, (now, number), (WATER_HIT, NOT_A_PART, NOT_A_PART, UP), (velocity, spin), push, log
+    )
 
 
 @kernel
@@ -67,7 +84,8 @@ def skips_off(land, ball, velocity, heavy):
     """Whether a ball of specific gravity `heavy` that hits water at `velocity` ricochets."""
     speed = length(velocity)
     under = land.ground.waters.levels[ball['target'] - 1] - ball['position'][2]
-    # Only from above: one that comes in through the outline, as from a bank, is under the surface already.
+    # Only from above: one that comes in through the outline, as from a bank, is under the surface
+    # already.
     if ball['phase'] != FLIGHT or velocity[2] >= 0.0 or speed < SKIPS_AT or under > 1e-6:
         return False
     return asin(-velocity[2] / speed) < CRITICAL_ANGLE / sqrt(heavy)
@@ -75,8 +93,14 @@ def skips_off(land, ball, velocity, heavy):
 
 @kernel
 def leave_water(land, ball):
-    """Take a ball that rises above the surface, a light one or one sent up, out of water. Writes water."""
-    if ball['position'][2] > land.ground.waters.levels[ball['water'] - 1] and ball['velocity'][2] > 0.0:
+    """Take a ball that rises above the surface, a light one or one sent up, out of water.
+
+    Writes water.
+    """
+    if (
+        ball['position'][2] > land.ground.waters.levels[ball['water'] - 1]
+        and ball['velocity'][2] > 0.0
+    ):
         ball['water'] = 0
 
 

@@ -1,24 +1,45 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Wedged balls, held by several surfaces at once: in a groove, a corner, a slot, or blown against a wall.
 
-Event by event their impacts would follow each other ever faster (Zeno). After MANY_RAPID_IMPACTS the ball
-is wedged: it moves in small time steps, at whose ends all its contacts are solved together with friction
-(Moreau's time stepping, see contact_solver.py), and penetration is corrected.
+Event by event their impacts would follow each other ever faster (Zeno). After MANY_RAPID_IMPACTS
+the ball is wedged: it moves in small time steps, at whose ends all its contacts are solved
+together with friction (Moreau's time stepping, see contact_solver.py), and penetration is
+corrected.
 """
+
 from math import sqrt
 
+from .contact_solver import (
+    add_ground_contacts,
+    count_support,
+    limit_speed,
+    sweep_impulses,
+    sweep_positions,
+    write_back,
+)
 from ..collision.conservative_advancement import TOUCH
 from ..collision.ground_contact import HOLDING_GAP
 from ..collision.workspace import CONTACTS
 from ..contact.contact_state import touch_down
 from ..jit import kernel, shared
-from ..mechanics.vector import ZERO, add, length, store, load
+from ..mechanics.vector import add, length, load, store, ZERO
 from ..state.ball import NO_PART
 from ..state.transitions import come_to_rest, take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.segment import greatest_acceleration
-from .contact_solver import (write_back, add_ground_contacts, count_support, sweep_impulses, sweep_positions,
-                             limit_speed)
 
 RAPID = 1e-6  # s between impacts: shorter for a ball that is being wedged
 MANY_RAPID_IMPACTS = 20  # after so many in a row a ball is wedged
@@ -44,8 +65,8 @@ def wedged_step_length(ball):
 def step_wedged(land, balls, i, now, work):
     """Solve the contacts of the wedged ball `i` at a time step's end.
 
-    A ball with one support left, or none, is no longer wedged. Writes motion, phase, contact, integrator,
-    pile, contacts, solved_motion, position_change.
+    A ball with one support left, or none, is no longer wedged. Writes motion, phase, contact,
+    integrator, pile, contacts, solved_motion, position_change.
     """
     ball = balls[i]
     store(work.solved_motion[i, 0:3], load(ball['velocity']))
@@ -66,7 +87,8 @@ def step_wedged(land, balls, i, now, work):
     left = max(length(load(ball['velocity'])) - ball['rolling_loss'], 0.0)
     limit_speed(ball, left)
     take_off(ball)
-    if ball['held_by'] > 0:  # a fixed first step: the estimate of a hop's length would follow rounding
+    # a fixed first step: the estimate of a hop's length would follow rounding
+    if ball['held_by'] > 0:
         ball['step'] = WEDGED_STEP
     ball['last_stage_time'] = -1.0
     if ball['held_by'] == 0:

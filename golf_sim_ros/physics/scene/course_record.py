@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Course and ball as plain records: no files, no formats."""
+
 from typing import NamedTuple, Optional, Union
 
 from ..effects.wind import LogProfile
@@ -41,9 +55,11 @@ class Course(NamedTuple):
     bounds : tuple of (float, float), or None
         Corners of the polygon that a ball on the ground may not leave.
     zones : tuple of Zone
-        Polygons that repaint the ground from above, later over earlier; pairs (Material, polygon) will do.
+        Polygons that repaint the ground from above, later over earlier; pairs (Material, polygon)
+        will do.
     obstacles : tuple
-        Shapes that stand on the ground and are none: hard, or leaves where the material has a drag.
+        Shapes that stand on the ground and are none: hard, or leaves where the material has a
+        drag.
     water : tuple of Water
         Ponds, lakes, burns: level surfaces; each needs ground below it.
     air : Air

@@ -1,16 +1,30 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Model of a world for kernels: the ball, the effects, the ground, and accuracy limits, as one record."""
+
 from typing import NamedTuple
 
 import numpy as np
 
+from .course_record import Ball
 from .. import geometry as ground_
 from ..effects import protocol
 from ..geometry.cup import cup_in, opening
 from ..geometry.solid import Flagstick
 from ..geometry.surfaces import Ground
 from ..properties.material import table
-from .course_record import Ball
 
 
 class Nothing(NamedTuple):
@@ -22,8 +36,9 @@ class Nothing(NamedTuple):
 class Limits(NamedTuple):
     """Limits of accuracy.
 
-    ``settle`` [m/s]: bounces of slower rebound are summed in closed form, as micro-bounces, instead of
-    followed one by one; ``path`` [m]: how far a segment's curve may lie from a closed form or off the ground.
+    ``settle`` [m/s]: bounces of slower rebound are summed in closed form, as micro-bounces,
+    instead of followed one by one; ``path`` [m]: how far a segment's curve may lie from a closed
+    form or off the ground.
     """
 
     settle: float
@@ -55,9 +70,15 @@ def material_names(course):
 
 def materials(course):
     """Materials of a course, in the order of their numbers."""
-    return tuple(dict.fromkeys([*(shape.material for shape in shapes(course)),
-                                *(zone[0] for zone in course.zones),
-                                *((course.cup, course.stick) if course.hole else ())]))
+    return tuple(
+        dict.fromkeys(
+            [
+                *(shape.material for shape in shapes(course)),
+                *(zone[0] for zone in course.zones),
+                *((course.cup, course.stick) if course.hole else ()),
+            ]
+        )
+    )
 
 
 def shapes(course):
@@ -71,32 +92,57 @@ def build_model(course, records, preset):
     Types are cast here, once: a kernel would be recompiled for an int in place of a float.
     """
     on_land = speaking(records, protocol.gravity, protocol.contact_normal)
-    land = GroundScene(Ball(*map(float, course.ball)), on_land, ground(course), table(materials(course)),
-                       preset.limits)
+    land = GroundScene(
+        Ball(*map(float, course.ball)),
+        on_land,
+        ground(course),
+        table(materials(course)),
+        preset.limits,
+    )
     return Model(land, in_flight(records), preset.method)
 
 
 def in_flight(records):
     """Effects among `records` that act on a ball in flight or under water."""
-    return speaking(records, protocol.gravity, protocol.air_velocity, protocol.acceleration,
-                    protocol.spin_rate, protocol.under_water)
+    return speaking(
+        records,
+        protocol.gravity,
+        protocol.air_velocity,
+        protocol.acceleration,
+        protocol.spin_rate,
+        protocol.under_water,
+    )
 
 
 def speaking(records, *some):
-    """Effects among `records` that have a body for one of `some` laws; `Nothing` where none has."""
+    """Effects among `records` that have a body for one of `some` laws.
+
+    `Nothing` where none has.
+    """
     return tuple(r for r in records if any(type(r) in law.cases for law in some)) or (Nothing(),)
 
 
 def ground(course):
-    """`Ground` of a course for kernels; ValueError where the hole is in ground that is too uneven."""
+    """`Ground` of a course for kernels.
+
+    ValueError where the hole is in ground that is too uneven.
+    """
     number = {material: i for i, material in enumerate(materials(course))}
     if course.hole is None:
-        return ground_.build(shapes(course), course.zones, course.bounds, None, number, course.water)
+        return ground_.build(
+            shapes(course), course.zones, course.bounds, None, number, course.water
+        )
     cup = cup_in(bare_ground(course), *course.hole, materials(course), course.cup)
     bottom = (*course.hole, opening(cup)[-1])
     stick = (Flagstick(bottom, material=course.stick),) if course.flagstick else ()
-    return ground_.build((*shapes(course), cup, *stick), course.zones, course.bounds, opening(cup), number,
-                         course.water)
+    return ground_.build(
+        (*shapes(course), cup, *stick),
+        course.zones,
+        course.bounds,
+        opening(cup),
+        number,
+        course.water,
+    )
 
 
 def bare_ground(course):

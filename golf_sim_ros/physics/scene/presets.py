@@ -1,17 +1,31 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Accuracy presets of a simulation: sketch, standard, reference."""
+
 from math import inf
 from typing import NamedTuple
 
-from ..integrators.dormand_prince import DormandPrince
 from .kernel_model import Limits
+from ..integrators.dormand_prince import DormandPrince
 
 
 class Preset(NamedTuple):
     """Integrator with its tolerance, limits of the contact laws, and the error that they promise.
 
-    ``touch`` and ``rest`` [m]: bounds on the error of the place of first contact, and of rest on level
-    ground, for shots of up to 90 m/s in still air. ``use``: what it is for, in a few words.
+    ``touch`` and ``rest`` [m]: bounds on the error of the place of first contact, and of rest on
+    level ground, for shots of up to 90 m/s in still air. ``use``: what it is for, in a few words.
     """
 
     method: NamedTuple
@@ -22,12 +36,23 @@ class Preset(NamedTuple):
 
 
 ACCURACY = {
-    'sketch': Preset(DormandPrince(5e-3), Limits(settle=0.1, path=1e-6), touch=0.5, rest=1.0,
-                     use='watching many shots at once'),
-    'standard': Preset(DormandPrince(2.3e-4), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2,
-                       use='playing'),
-    'reference': Preset(DormandPrince(1e-10), Limits(settle=1e-3, path=1e-10), touch=1e-6, rest=1e-4,
-                        use='research'),
+    'sketch': Preset(
+        DormandPrince(5e-3),
+        Limits(settle=0.1, path=1e-6),
+        touch=0.5,
+        rest=1.0,
+        use='watching many shots at once',
+    ),
+    'standard': Preset(
+        DormandPrince(2.3e-4), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2, use='playing'
+    ),
+    'reference': Preset(
+        DormandPrince(1e-10),
+        Limits(settle=1e-3, path=1e-10),
+        touch=1e-6,
+        rest=1e-4,
+        use='research',
+    ),
 }
 
 

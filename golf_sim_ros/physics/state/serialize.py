@@ -1,5 +1,19 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Serialisation of `BALL` records and events as numbers and lists, and back."""
+
 from functools import cache
 
 import numpy as np
@@ -8,10 +22,20 @@ from .ball import BALL, FLIGHT, ROLL, SLIDE
 
 TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
 
-OF_TICK = BALL.names[:3]  # fields that a tick writes of a moving ball; all others last as long as its segment
+# fields that a tick writes of a moving ball; all others last as long as its segment
+OF_TICK = BALL.names[:3]
 # The other fields that matter of a ball at rest: the rest is written when it sets off.
-STANDING = ('phase', 'support', 'material', 'normal', 'micro_bounce_end', 'micro_bounce_load',
-            'micro_bounce_air', 'sleeps_on_ball', 'strokes')
+STANDING = (
+    'phase',
+    'support',
+    'material',
+    'normal',
+    'micro_bounce_end',
+    'micro_bounce_load',
+    'micro_bounce_air',
+    'sleeps_on_ball',
+    'strokes',
+)
 STORED = ('stored_count', 'stored_partners', 'stored_impulses')  # only of a time-stepped ball
 
 
@@ -27,7 +51,7 @@ def plain_of_tick(ball):
 
 def plain_of_segment(ball):
     """Part of `plain` that lasts as long as the ball's segment."""
-    names = BALL.names[len(OF_TICK):] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
+    names = BALL.names[len(OF_TICK) :] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
     if not ball['time_stepping']:
         names = [name for name in names if name not in STORED]
     return {name: ball[name].tolist() for name in names}
@@ -41,12 +65,17 @@ def plain_rows(records):
 @cache
 def with_triples(record):
     """Dtype `record` with its vectors as records, which become tuples."""
-    return np.dtype([(name, TRIPLE if kind.shape else kind) for name, (kind, _) in record.fields.items()],
-                    align=record.isalignedstruct)
+    return np.dtype(
+        [(name, TRIPLE if kind.shape else kind) for name, (kind, _) in record.fields.items()],
+        align=record.isalignedstruct,
+    )
 
 
 def restored(values):
-    """`BALL` record restored from `plain` values; ValueError where a name or shape is not of one."""
+    """`BALL` record restored from `plain` values.
+
+    ValueError where a name or shape is not of one.
+    """
     ball = np.zeros((), BALL)
     ball['end'] = np.inf
     for name, value in values.items():

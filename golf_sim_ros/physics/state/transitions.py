@@ -1,13 +1,28 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Transitions of a ball between phases: nothing else in the kernels writes a ball's `phase`.
 
-A phase comes with what goes along with it: motion that ends, or an integrator that starts anew. They stand
-beside the record, low in the layers, and not with the responses: the record of a shot stops and fails balls,
-and contact lets them slide, roll and rest. Which transition it is is decided there.
+A phase comes with what goes along with it: motion that ends, or an integrator that starts anew.
+They stand beside the record, low in the layers, and not with the responses: the record of a shot
+stops and fails balls, and contact lets them slide, roll and rest. Which transition it is is
+decided there.
 """
-from ..jit import kernel
-from ..mechanics.vector import ZERO, load, store
+
 from .ball import FAILED, FLIGHT, HOLED, OUT, REST, ROLL, SLIDE, WATER
+from ..jit import kernel
+from ..mechanics.vector import load, store, ZERO
 
 
 @kernel

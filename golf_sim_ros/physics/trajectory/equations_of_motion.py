@@ -1,10 +1,36 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Equations of motion: of a ball in flight, and of one in contact with ground which is not flat."""
+
 from ..effects import flight_rates, gravity_at, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..mechanics.impulse import slip
-from ..mechanics.vector import ZERO, add, add_scaled, cross, dot, length, scale, sub, tangential, unit, load
+from ..mechanics.vector import (
+    add,
+    add_scaled,
+    cross,
+    dot,
+    length,
+    load,
+    scale,
+    sub,
+    tangential,
+    unit,
+    ZERO,
+)
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
@@ -31,11 +57,14 @@ def material_under(land, ball):
 def rolling_deceleration(material, press, needed):
     """Deceleration [m/s^2] of a rolling ball: rolling resistance, as far as grip allows.
 
-    Friction has to brake the ball, and to turn it as it speeds up downhill, for which it is `needed`: on a
-    plane k/(1 + k) of the pull. So a ball stays at rest where (5/7) tan <= rolling resistance and
-    tan <= static friction.
+    Friction has to brake the ball, and to turn it as it speeds up downhill, for which it is
+    `needed`: on a plane k/(1 + k) of the pull. So a ball stays at rest where (5/7) tan <= rolling
+    resistance and tan <= static friction.
     """
-    return min(material['rolling_resistance'] * press, max(material['static_friction'] * press - needed, 0.0))
+    return min(
+        material['rolling_resistance'] * press,
+        max(material['static_friction'] * press - needed, 0.0),
+    )
 
 
 @kernel
@@ -54,8 +83,8 @@ def unwinding(material, press, radius, inertia):
 def pivoting(ball, material, press, drive, radius, inertia):
     """Angular deceleration [rad/s^2] by pivot friction, with the sign of the spin about the normal.
 
-    The sign is that at the step's start: within a step it must not jump. A ball without such spin is held
-    against the `drive` of a normal that turns, as by static friction.
+    The sign is that at the step's start: within a step it must not jump. A ball without such spin
+    is held against the `drive` of a normal that turns, as by static friction.
     """
     most = unwinding(material, press, radius, inertia)
     about = dot(load(ball['spin']), load(ball['normal']))
@@ -77,10 +106,10 @@ def contact_rates(land, ball, place, velocity, spin):
 
     A press below 0 means that the ground would have to pull.
 
-    With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over mass is
-    -(g n + v n'). Grip also couples spin about the normal, w_n, to motion:
-    (1 + k) v'_t = g_t + k r w_n (n x n'). A sliding ball has dynamic friction against its slip instead, or,
-    where it only begins to slip, along the friction that rolling would need.
+    With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
+    mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =
+    g_t + k r w_n (n x n'). A sliding ball has dynamic friction against its slip instead, or, where
+    it only begins to slip, along the friction that rolling would need.
     """
     r = land.ball.radius
     k = land.ball.inertia
@@ -111,8 +140,11 @@ def contact_rates(land, ball, place, velocity, spin):
         friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
     force = add_scaled(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
-    if ball['phase'] == ROLL:  # no slip: the spin follows the velocity, which resistance brakes, too
+    # no slip: the spin follows the velocity, which resistance brakes, too
+    if ball['phase'] == ROLL:
         torque = add_scaled(scale(1.0 / r, cross(normal, force)), about, turn)
     if material['pivot_friction'] > 0.0 and not tail:
-        torque = add_scaled(torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal)
+        torque = add_scaled(
+            torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal
+        )
     return force, torque, pressing, needed

@@ -1,10 +1,23 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Segment of a path: a Bezier curve, dense output for every integrator and closed form.
 
-Position is of degree five: it interpolates position, velocity and acceleration at both ends (quintic
-Hermite), so it serves every integrator whose step ends with the rates there. Spin is of degree three (cubic
-Hermite). Coefficients are Bernstein's, relative to the start: the curve lies within their convex hull, which
-gives bounds for nothing, and short segments keep full precision.
+Position is of degree five: it interpolates position, velocity and acceleration at both ends
+(quintic Hermite), so it serves every integrator whose step ends with the rates there. Spin is of
+degree three (cubic Hermite). Coefficients are Bernstein's, relative to the start: the curve lies
+within their convex hull, which gives bounds for nothing, and short segments keep full precision.
 
 ::
 
@@ -12,19 +25,20 @@ gives bounds for nothing, and short segments keep full precision.
     /         ` . w3        w5 = d, w4 = d - h v1 / 5, w3 = ...
    w0             w4 w5
 """
+
 from math import sqrt
 
 from ..jit import kernel
-from ..mechanics.vector import add, add_scaled, dot, store, sub, load
+from ..mechanics.vector import add, add_scaled, dot, load, store, sub
 
 
 @kernel
 def fit_segment(ball, way, velocity, rate, spin_rate):
     """Fit the segment's Hermite curves. Writes position_coefficients, spin_coefficients.
 
-    `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and `spin_rate` are
-    pairs (at the start, at the end); the spin at the start is the ball's own, that at the end stands in the
-    fourth coefficient already.
+    `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and
+    `spin_rate` are pairs (at the start, at the end); the spin at the start is the ball's own, that
+    at the end stands in the fourth coefficient already.
     """
     h = ball['span']
     w = ball['position_coefficients']
@@ -54,9 +68,11 @@ def position(ball, time):
     b4 = 5.0 * s * t * t * t * t
     b5 = t * t * t * t * t
     o = ball['origin']
-    return (o[0] + (b1 * w[1, 0] + b2 * w[2, 0] + b3 * w[3, 0] + b4 * w[4, 0] + b5 * w[5, 0]),
-            o[1] + (b1 * w[1, 1] + b2 * w[2, 1] + b3 * w[3, 1] + b4 * w[4, 1] + b5 * w[5, 1]),
-            o[2] + (b1 * w[1, 2] + b2 * w[2, 2] + b3 * w[3, 2] + b4 * w[4, 2] + b5 * w[5, 2]))
+    return (
+        o[0] + (b1 * w[1, 0] + b2 * w[2, 0] + b3 * w[3, 0] + b4 * w[4, 0] + b5 * w[5, 0]),
+        o[1] + (b1 * w[1, 1] + b2 * w[2, 1] + b3 * w[3, 1] + b4 * w[4, 1] + b5 * w[5, 1]),
+        o[2] + (b1 * w[1, 2] + b2 * w[2, 2] + b3 * w[3, 2] + b4 * w[4, 2] + b5 * w[5, 2]),
+    )
 
 
 @kernel
@@ -71,12 +87,23 @@ def velocity(ball, time):
     c2 = k * 6.0 * s * s * t * t
     c3 = k * 4.0 * s * t * t * t
     c4 = k * t * t * t * t
-    return (c0 * w[1, 0] + c1 * (w[2, 0] - w[1, 0]) + c2 * (w[3, 0] - w[2, 0])
-            + c3 * (w[4, 0] - w[3, 0]) + c4 * (w[5, 0] - w[4, 0]),
-            c0 * w[1, 1] + c1 * (w[2, 1] - w[1, 1]) + c2 * (w[3, 1] - w[2, 1])
-            + c3 * (w[4, 1] - w[3, 1]) + c4 * (w[5, 1] - w[4, 1]),
-            c0 * w[1, 2] + c1 * (w[2, 2] - w[1, 2]) + c2 * (w[3, 2] - w[2, 2])
-            + c3 * (w[4, 2] - w[3, 2]) + c4 * (w[5, 2] - w[4, 2]))
+    return (
+        c0 * w[1, 0]
+        + c1 * (w[2, 0] - w[1, 0])
+        + c2 * (w[3, 0] - w[2, 0])
+        + c3 * (w[4, 0] - w[3, 0])
+        + c4 * (w[5, 0] - w[4, 0]),
+        c0 * w[1, 1]
+        + c1 * (w[2, 1] - w[1, 1])
+        + c2 * (w[3, 1] - w[2, 1])
+        + c3 * (w[4, 1] - w[3, 1])
+        + c4 * (w[5, 1] - w[4, 1]),
+        c0 * w[1, 2]
+        + c1 * (w[2, 2] - w[1, 2])
+        + c2 * (w[3, 2] - w[2, 2])
+        + c3 * (w[4, 2] - w[3, 2])
+        + c4 * (w[5, 2] - w[4, 2]),
+    )
 
 
 @kernel
@@ -89,9 +116,11 @@ def spin(ball, time):
     b1 = 3.0 * s * s * t
     b2 = 3.0 * s * t * t
     b3 = t * t * t
-    return (b0 * w[0, 0] + b1 * w[1, 0] + b2 * w[2, 0] + b3 * w[3, 0],
-            b0 * w[0, 1] + b1 * w[1, 1] + b2 * w[2, 1] + b3 * w[3, 1],
-            b0 * w[0, 2] + b1 * w[1, 2] + b2 * w[2, 2] + b3 * w[3, 2])
+    return (
+        b0 * w[0, 0] + b1 * w[1, 0] + b2 * w[2, 0] + b3 * w[3, 0],
+        b0 * w[0, 1] + b1 * w[1, 1] + b2 * w[2, 1] + b3 * w[3, 1],
+        b0 * w[0, 2] + b1 * w[1, 2] + b2 * w[2, 2] + b3 * w[3, 2],
+    )
 
 
 @kernel
@@ -149,9 +178,14 @@ def extent_along(ball, axis):
 def plane_gap_coefficients(ball, normal, first):
     """Bernstein coefficients of the segment's height over a plane of `normal`, `first` at its start."""
     w = ball['position_coefficients']
-    return (first, first + dot(load(w[1]), normal), first + dot(load(w[2]), normal),
-            first + dot(load(w[3]), normal), first + dot(load(w[4]), normal),
-            first + dot(load(w[5]), normal))
+    return (
+        first,
+        first + dot(load(w[1]), normal),
+        first + dot(load(w[2]), normal),
+        first + dot(load(w[3]), normal),
+        first + dot(load(w[4]), normal),
+        first + dot(load(w[5]), normal),
+    )
 
 
 @kernel
@@ -162,10 +196,18 @@ def plane_gap(g, span, time):
     ss = s * s
     tt = t * t
     k = 5.0 / span
-    return (ss * ss * (s * g[0] + 5.0 * t * g[1]) + 10.0 * ss * tt * (s * g[2] + t * g[3])
-            + tt * tt * (5.0 * s * g[4] + t * g[5]),
-            k * (ss * ss * (g[1] - g[0]) + 4.0 * s * t * (ss * (g[2] - g[1]) + tt * (g[4] - g[3]))
-                 + 6.0 * ss * tt * (g[3] - g[2]) + tt * tt * (g[5] - g[4])))
+    return (
+        ss * ss * (s * g[0] + 5.0 * t * g[1])
+        + 10.0 * ss * tt * (s * g[2] + t * g[3])
+        + tt * tt * (5.0 * s * g[4] + t * g[5]),
+        k
+        * (
+            ss * ss * (g[1] - g[0])
+            + 4.0 * s * t * (ss * (g[2] - g[1]) + tt * (g[4] - g[3]))
+            + 6.0 * ss * tt * (g[3] - g[2])
+            + tt * tt * (g[5] - g[4])
+        ),
+    )
 
 
 @kernel

@@ -1,16 +1,31 @@
-# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
 """Record of a shot under way, for its result, and the checks that fail a shot."""
-from ..jit import entry, kernel
-from ..mechanics.vector import store, load
-from ..state.ball import FLIGHT, LAUNCH, REST, moves
-from ..state.events import LOST, SHOT_ENDS, next_event
-from ..state.transitions import come_to_rest, put_back
+
 from . import segment
+from ..jit import entry, kernel
+from ..mechanics.vector import load, store
+from ..state.ball import FLIGHT, LAUNCH, moves, REST
+from ..state.events import LOST, next_event, SHOT_ENDS
+from ..state.transitions import come_to_rest, put_back
 
 NOT_FINITE, TOO_MUCH_WORK = 1, 2  # why a shot fails
-# Bound on the work of a path, a token bucket: segments a second, four times what a wedged ball takes, and the
-# burst beyond that, which drains at that rate. In `make hard` the burst comes to some 350; at `reference` a
-# ball that skims on turf which never stops to throw it up takes 37 000 bounces within a second or two.
+# Bound on the work of a path, a token bucket: segments a second, four times what a wedged ball
+# takes, and the burst beyond that, which drains at that rate. In `make hard` the burst comes to
+# some 350; at `reference` a ball that skims on turf which never stops to throw it up takes 37 000
+# bounces within a second or two.
 SUSTAINED_WORK = 20_000.0
 MOST_WORK = 100_000
 APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a femtometre
@@ -18,10 +33,14 @@ APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a f
 
 @kernel
 def update_apex(ball):
-    """Update the greatest height in flight before the first contact with the segment. Writes apex."""
+    """Update the greatest height in flight before the first contact with the segment.
+
+    Writes apex.
+    """
     if ball['phase'] != FLIGHT or ball['landed']:
         return
-    if segment.extent_along(ball, 2)[1] <= ball['apex']:  # no root finding where the control points are lower
+    # no root finding where the control points are lower
+    if segment.extent_along(ball, 2)[1] <= ball['apex']:
         return
     time = ball['end'] - ball['begin']
     start = segment.position(ball, 0.0)[2]
@@ -33,7 +52,8 @@ def update_apex(ball):
     if rising <= 0.0 or falling >= 0.0:
         return
     moved = 0
-    for _ in range(50):  # regula falsi; an end that stays twice loses half of its weight (Illinois)
+    # regula falsi; an end that stays twice loses half of its weight (Illinois)
+    for _ in range(50):
         apex = (low * falling - high * rising) / (falling - rising)
         speed = segment.velocity(ball, apex)[2]
         if abs(speed) < APEX_SPEED:
@@ -76,7 +96,8 @@ def record_landing(ball, now):
 def end_shot(ball, number, now, kind, log):
     """End the ball's shot and log it as `kind`, SHOT_ENDS or LOST.
 
-    A ball that still moves is over time, and is stopped. Writes shot_active, ended, over_time, phase, motion.
+    A ball that still moves is over time, and is stopped. Writes shot_active, ended, over_time,
+    phase, motion.
     """
     ball['ended'] = now
     if moves(ball['phase']):
@@ -106,7 +127,8 @@ def check_segment(ball, now):
     total = ball['end'] - ball['begin'] + ball['span']
     for k in range(3):
         total += w[1, k] + w[2, k] + w[3, k] + w[4, k] + w[5, k] + s[1, k] + s[2, k] + s[3, k]
-    return 0 if total - total == 0.0 else NOT_FINITE  # infinite or not a number: the difference is no zero
+    # infinite or not a number: the difference is no zero
+    return 0 if total - total == 0.0 else NOT_FINITE
 
 
 @kernel
