@@ -19,6 +19,9 @@ from rclpy.time import Time
 from std_msgs.msg import Header
 
 
+Vector = tuple[float, float, float]
+
+
 def header(frame, start, time):
     """Header in `frame` for simulated `time` [s] of a node that started at `start` [ns of ROS time]."""
     stamp = Time(nanoseconds=start + round(time * 1e9)).to_msg()
