@@ -52,7 +52,7 @@ def result_table(result: Result, units: Units) -> str:
 
 
 def _ending(result: Result) -> str:
-    ending: str = ENDINGS.get(result['status'], result['status'])
+    ending = ENDINGS.get(result['status']) or str(result['status'])
     return (
         f'{ending}, {result["lie"]}' if result['status'] == 'at_rest' and result['lie'] else ending
     )
