@@ -23,7 +23,7 @@ import numpy as np
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ...drawing.polygon_triangles import triangles
+from ...drawing.polygon_triangles import Polygon, triangles
 from ...drawing.relief import relief
 from ...drawing.zone_triangles import cells, curved, flat, sheet
 from ...physics import Course, geometry, ground_height, Material
@@ -37,7 +37,6 @@ from ...physics.geometry.plane_patch import frame
 from ...physics.geometry.solid import FLAGSTICK_HEIGHT, FLAGSTICK_RADIUS, Sphere
 
 Corner = Sequence[float]  # x, y, z
-Outline = Sequence[Sequence[float]]  # corners of a polygon, x, y each
 Painted = list[tuple[Material, Any]]  # materials, and triangles of each
 
 MARGIN = 60.0  # m of an endless plane that are drawn around everything else
@@ -152,7 +151,7 @@ def lifted(place: Corner, normal: Corner, pieces: Painted) -> Painted:
     ]
 
 
-def covered(shape: Plane | Patch, course: Course, number: int) -> list[Outline]:
+def covered(shape: Plane | Patch, course: Course, number: int) -> list[Polygon]:
     """Polygons where `shape` is not seen: its cuts, and later patches in the same plane."""
     later = [
         patch
@@ -170,7 +169,7 @@ def coplanar(shape: Plane | Patch, patch: Patch) -> bool:
     return parallel and abs(np.subtract(patch.center, place) @ normal) < 1e-6
 
 
-def outskirts(course: Course) -> Outline:
+def outskirts(course: Course) -> Polygon:
     """Corners of a rectangle around all that lies on `course`, `MARGIN` wide."""
     places = [course.tee, *([course.hole] if course.hole else []), *(course.bounds or ())]
     for shape in course.ground:
