@@ -135,7 +135,7 @@ def strike_of(recording: Recording, result: Result) -> Entry | None:
 def path(
     track: Track, result: Result, begin: float, start: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Put together times, positions, velocities and spins from the strike at `begin` to the end."""
+    """Cut times, positions, velocities and spins from the strike at `begin` to the end."""
     stamps, of_pose, of_twist = np.intersect1d(track.times, track.twist_times, return_indices=True)
     seconds = 1e-9 * (stamps - start)
     rows = np.column_stack(
