@@ -80,7 +80,7 @@ class Reach:
     def has_had_time(self, since: float) -> bool:
         """Whether the sim had time enough to take a strike that was sent at `since`.
 
-        That is, could be reached, and was not paused.
+        That is, whether it could be reached, and was not paused, for so long.
         """
         now = time.monotonic()
         if self.beat['paused']:

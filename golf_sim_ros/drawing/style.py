@@ -29,8 +29,7 @@ SMALL = 8.0  # points
 TEXT = 9.0
 TITLE = 14.0
 
-# Colours that stay apart on grass, on sand and on paper, for colour-blind eyes too; after Okabe
-# and Ito.
+# Colours that stay apart on grass, sand and paper, for colour-blind eyes too: after Okabe and Ito.
 FEW = ('#d55e00', '#0072b2', '#e6a100', '#b0468c', '#39a7e0', '#22282b')
 CASING = [withStroke(linewidth=2.6, foreground='white', alpha=0.85)]
 THIN_CASING = [withStroke(linewidth=1.7, foreground='white', alpha=0.6)]

@@ -127,7 +127,7 @@ def split(words: Sequence[str]) -> tuple[list[str], list[str]]:
 def pairs(words: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Pair the flags of `words` with what follows them; what has no flag follows ''.
 
-    Something follows only those that take something.
+    A flag that takes nothing is paired with ''.
     """
     left = iter(words)
     for word in left:

@@ -45,7 +45,7 @@ def complete_environment(environment: MutableMapping[str, str] = os.environ) -> 
 
 
 def unsafe(environment: Mapping[str, str] = os.environ) -> str:
-    """Say what is missing of the security that `environment` asks for; '' where nothing is.
+    """Say what is missing of the security that `environment` asks for, or ''.
 
     rclpy itself says no more than that it cannot be initialized.
     """
@@ -56,8 +56,8 @@ def unsafe(environment: Mapping[str, str] = os.environ) -> str:
     if keystore and Path(keystore, 'enclaves').is_dir():
         return ''
     return (
-        f'ROS_SECURITY_ENABLE is true, but ROS_SECURITY_KEYSTORE {keystore!r} is no keystore: make '
-        'one with ros2 security create_keystore, or unset ROS_SECURITY_ENABLE'
+        f'ROS_SECURITY_ENABLE is true, but ROS_SECURITY_KEYSTORE {keystore!r} is no keystore: '
+        'make one with ros2 security create_keystore, or unset ROS_SECURITY_ENABLE'
     )
 
 

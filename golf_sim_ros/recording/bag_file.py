@@ -164,8 +164,7 @@ def by_rosbags(path: Path, raw: bytes | None = None) -> list[Raw]:
             reader.storage.path = in_memory(raw)
             reader.storage.schemas = Schemas()
         with reader:
-            # Those of the storage: where its QoS is not the one of the metadata, rosbags would
-            # find nothing.
+            # Those of the storage: rosbags has none where its QoS is not that of the metadata.
             stores = getattr(reader.storage, 'storages', [reader.storage])
             wanted = [
                 connection
