@@ -18,7 +18,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from math import isclose
 
-Point = tuple[float, float]
+Point = Sequence[float]  # x, y
 Polygon = Sequence[Point]
 Edge = tuple[Point, Point, int]  # from low to high, and the number of its polygon
 Crossing = tuple[float, float, float, int]  # of an edge and a slab: see `slabs`

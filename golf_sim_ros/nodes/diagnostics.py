@@ -15,7 +15,7 @@
 """How well the simulation keeps up with the clock, for /diagnostics."""
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from math import ceil
 from time import monotonic, perf_counter, process_time
@@ -73,7 +73,7 @@ class Diagnostics:
         self.factor = (time - before) / max(now - then, 1e-9)
         self.last = now, time
 
-    def take_account(self, spent: dict[str, float]) -> None:
+    def take_account(self, spent: Mapping[str, float]) -> None:
         """Update the shares [%] of time since the last call.
 
         `spent` are cycles of the engine by stage.
@@ -104,7 +104,7 @@ class Diagnostics:
 
         `lost` [s] of wall time were given up.
         """
-        ordered = sorted(self.durations)
+        ordered, accuracy = sorted(self.durations), str(world.accuracy)
         return {
             'real-time factor': f'{self.factor:.3f}',
             'tick time p50 [us]': f'{1e6 * ordered[len(ordered) // 2]:.1f}',
@@ -119,9 +119,9 @@ class Diagnostics:
             'strikes lost unseen': str(self.strikes_lost),
             'ticks made up': str(self.made_up),
             'wall time given up [s]': f'{lost:.3f}',
-            'accuracy': world.accuracy,
-            'error at most, first touch [m]': f'{ACCURACY[world.accuracy].touch:g}',
-            'error at most, rest [m]': f'{ACCURACY[world.accuracy].rest:g}',
+            'accuracy': accuracy,
+            'error at most, first touch [m]': f'{ACCURACY[accuracy].touch:g}',
+            'error at most, rest [m]': f'{ACCURACY[accuracy].rest:g}',
             'effects on': ', '.join(world.effects_on) or 'none',
             **{f'effect off: {name}': why for name, why in world.effects_off.items()},
             'effects asked for in vain': with_reasons(world.effects_needless) or 'none',

@@ -214,7 +214,7 @@ def applied(world: World, entry: Entry) -> list[Event]:
         world.set_live(kind, entry[kind])
     elif kind == 'accuracy':
         world.accuracy = entry['accuracy']
-    return world.reset() if kind == 'reset' else []
+    return [*world.reset()] if kind == 'reset' else []
 
 
 def impacts_of(events: list[Event], name: str) -> list[Collision]:

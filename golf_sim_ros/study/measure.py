@@ -95,7 +95,7 @@ class Stage:
         world, scene = self.world, self.scene
         if isinstance(scene, Scene):
             return played(scene, self.accuracy, count, self.effects)
-        assert world is not None  # every `Game` has one
+        assert world is not None and self.start is not None  # every `Game` has them
         for _ in range(count):
             began = process_time()
             world.restore(self.start)

@@ -186,7 +186,7 @@ def extent(shape: Any) -> Sequence[Any]:
     if isinstance(shape, Heightmap):
         return corners_of_map(shape)
     if isinstance(shape, Plane):
-        return sum(shape.cut, ())
+        return [corner for cut in shape.cut for corner in cut]
     return rectangle(shape) if isinstance(shape, Patch) else geometry.extent(shape)
 
 
@@ -204,7 +204,9 @@ def hole(course: Course) -> list[Marker]:
     if course.hole is None:
         return []
     x, y = course.hole
-    z = ground_height(course, x, y)[0]
+    found = ground_height(course, x, y)
+    assert found is not None, 'a course is refused that has no ground around its hole'
+    z, _ = found
     disc = marker('hole', 0, Marker.CYLINDER, (HOLE_DIAMETER, HOLE_DIAMETER, 0.004), BLACK)
     put(disc, x, y, z)
     return [disc, *flagstick(x, y, z - DEPTH)] if course.flagstick else [disc]

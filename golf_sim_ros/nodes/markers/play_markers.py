@@ -72,7 +72,9 @@ class Scene:
         self.contacts: deque[tuple] = deque(maxlen=CONTACTS)
         self.size = 2 * world.course.ball.radius
         x, y = world.course.tee
-        self.place = x, y, ground_height(world.course, x, y)[0]
+        found = ground_height(world.course, x, y)
+        assert found is not None, 'a course is refused that has no ground under its tee'
+        self.place = x, y, found[0]
 
     def markers(self, head: Header, world: World, wind: Sequence[float]) -> MarkerArray:
         """Make the MarkerArray of now.
