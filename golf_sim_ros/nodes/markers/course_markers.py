@@ -153,9 +153,10 @@ def lifted(place: Corner, normal: Corner, pieces: Painted) -> Painted:
 
 def covered(shape: Plane | Patch, course: Course, number: int) -> list[Polygon]:
     """Polygons where `shape` is not seen: its cuts, and later patches in the same plane."""
+    after = number + 1
     later = [
         patch
-        for patch in course.ground[number:][1:]
+        for patch in course.ground[after:]
         if isinstance(patch, Patch) and not patch.cut and coplanar(shape, patch)
     ]
     return [*shape.cut, *([tuple(corner[:2]) for corner in rectangle(patch)] for patch in later)]
