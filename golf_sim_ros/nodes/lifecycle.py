@@ -18,7 +18,7 @@ from collections.abc import Callable
 import signal
 import sys
 from types import FrameType
-from typing import Any
+from typing import Any, Optional
 
 import rclpy
 from rclpy.exceptions import ParameterException
@@ -103,7 +103,7 @@ def run(make_node: Callable[[], Node], program: Program, args: list[str] | None 
     return 0
 
 
-def checked(make_node: Callable[[], Node], args: list[str] | None) -> Node | None:
+def checked(make_node: Callable[[], Node], args: list[str] | None) -> Optional[Node]:
     """Make a node by `make_node`; None after a line in the log that says what was wrong."""
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)

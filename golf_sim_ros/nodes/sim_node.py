@@ -18,7 +18,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 import sys
 from time import perf_counter
-from typing import Any
+from typing import Any, Optional
 
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped
 from rclpy.clock import Clock, ClockType
@@ -67,7 +67,7 @@ class SimNode(Node):
     def __init__(
         self,
         *,
-        context: Context | None = None,
+        context: Optional[Context] = None,
         namespace: str | None = None,
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:

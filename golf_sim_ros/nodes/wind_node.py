@@ -16,7 +16,7 @@
 
 from collections.abc import Sequence
 import sys
-from typing import Any
+from typing import Any, Optional
 
 from geometry_msgs.msg import Vector3Stamped
 import numpy as np
@@ -87,7 +87,7 @@ class WindNode(Node):
     def __init__(
         self,
         *,
-        context: Context | None = None,
+        context: Optional[Context] = None,
         namespace: str | None = None,
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
