@@ -22,7 +22,7 @@ import pytest
 
 pytest.importorskip('rosbags')
 
-from golf_sim_ros.cli.pipes import UNREAD  # noqa: E402
+from golf_sim_ros.cli.closed_pipe import UNREAD  # noqa: E402
 from recorded_play import bag, Sim  # noqa: E402
 
 TOOLS = ('resimulate', 'plot_play', 'shoot', 'record_play', 'accuracy_study')
