@@ -160,7 +160,7 @@ class PyBullet:
 
     @staticmethod
     def load():
-        """The module."""
+        """Import the module."""
         import pybullet
 
         return pybullet
@@ -238,7 +238,7 @@ class MuJoCo:
 
     @staticmethod
     def load():
-        """The module."""
+        """Import the module."""
         import mujoco
 
         return mujoco

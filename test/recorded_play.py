@@ -162,12 +162,12 @@ class Sim:
 
 
 def made(kind, **fields):
-    """A message."""
+    """Make a message."""
     return TYPES.types[kind](**fields)
 
 
 def xyz(vector, kind='Vector3'):
-    """A Vector3 or Point."""
+    """Make a Vector3 or Point."""
     return made(
         f'geometry_msgs/msg/{kind}', **{name: float(part) for name, part in zip('xyz', vector)}
     )
@@ -191,7 +191,7 @@ def without(told, *names):
 
 
 def changed(told, change, *topics):
-    """`told` with one message changed: the first of these topics for which `change(message)` is true."""
+    """Change one message of `told`: the first of these topics for which `change` is true of it."""
     told = list(told)
     for i, (topic, kind, received, message) in enumerate(told):
         if topic.endswith(topics):
@@ -203,7 +203,7 @@ def changed(told, change, *topics):
 
 
 def replaced(old, new):
-    """A change that replaces `old` by `new` in a text, where it is."""
+    """Make a change that replaces `old` by `new` in a text, where it is."""
 
     def change(message):
         found = old in message.data

@@ -73,7 +73,7 @@ def insert(path, after, line):
 
 @pytest.fixture(scope='module')
 def told(tmp_path_factory):
-    """What `PLAY` prints in a copy with the examples."""
+    """Run `PLAY` in a copy with the examples: what it prints."""
     copy = tmp_path_factory.mktemp('checkout')
     for folder in ('golf_sim_ros', 'config'):
         shutil.copytree(ROOT / folder, copy / folder, ignore=shutil.ignore_patterns('__pycache__'))

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Names that users have in their scripts, launch files and courses: they stay, wherever the code moves."""
+"""Names that users have in scripts, launch files and courses stay, wherever the code moves."""
 
 import ast
 from importlib import import_module

@@ -71,7 +71,7 @@ def rows(name):
 
 
 def column(table, name):
-    """A column as numbers; nan where it is empty."""
+    """Return a column as numbers; nan where it is empty."""
     return np.array([float(row.get(name) or 'nan') for row in table])
 
 
@@ -95,7 +95,10 @@ cd, cl = drag_coefficient, lift_per_ratio
 
 
 def fly(laws, speed, launch, spin):
-    """Carry [yd], apex [yd] and landing angle [deg] of shots in still air of 25 degrees: RK4, all at once."""
+    """Carry [yd], apex [yd] and landing angle [deg] of shots in still air of 25 degrees.
+
+    By RK4, all at once.
+    """
     air = Air()
     push = 0.5 * density(air) * pi * RADIUS**2 / MASS
     thickness = density(air) / 1.18

@@ -77,7 +77,7 @@ def parser():
 
 
 def run(kind, options):
-    """What came of the cases of a kind: counts, greatest time and memory, faults with their numbers."""
+    """Read the cases of a kind: counts, greatest time and memory, faults with their numbers."""
     found = {'read': 0, 'refused': 0, 'faults': [], 'time': 0.0, 'memory': 0}
     first, last = options.first, options.first + options.count
     while first < last:
@@ -97,7 +97,7 @@ def run(kind, options):
 
 
 def cases(kind, first, last, options):
-    """What a process of its own says of each case, until it ends."""
+    """Start a process that reads cases: what it says of each, until it ends."""
     command = [
         sys.executable,
         str(HERE),

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Malformed and extreme messages, services and parameters over DDS at a sim, and a good shot after them."""
+"""Malformed and extreme messages, services, parameters over DDS at a sim; then a good shot."""
 
 from collections import deque
 from contextlib import contextmanager, suppress
@@ -62,7 +62,7 @@ EXACT = (
 
 @contextmanager
 def domain():
-    """A ROS domain of our own, on this machine only."""
+    """Claim a ROS domain of our own, on this machine only."""
     with socket.socket() as claim, tempfile.TemporaryDirectory() as log:
         number = next(n for n in range(1, 102) if is_free(claim, n))
         os.environ.update(
@@ -110,7 +110,7 @@ class Attacker(Golfer):
             assert service.wait_for_service(60.0)
 
     def ask(self, service, request):
-        """The answer of a service, within HANGS."""
+        """Wait for the answer of a service, within HANGS."""
         future = service.call_async(request)
         wait_until(future.done, f'{service.srv_name} answered', HANGS)
         return future.result()

@@ -187,7 +187,7 @@ def places(content, way=()):
 
 
 def at(content, way):
-    """What is at a place."""
+    """Return what is at a place."""
     for key in way:
         content = content[key]
     return content
@@ -214,7 +214,7 @@ def changed(rng, content, way, value):
 
 
 def structure_mutated(rng, content):
-    """`content` with a few places changed: to junk, to what is elsewhere, or to a list of itself."""
+    """`content` with a few places changed: to junk, to what is elsewhere, or a list of itself."""
     for _ in range(rng.choice((1, 1, 1, 1, 2, 6))):
         ways = list(places(content))
         way = rng.choice(ways)

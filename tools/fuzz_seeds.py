@@ -134,7 +134,7 @@ def courses():
 
 
 def stl(binary):
-    """A tetrahedron as STL."""
+    """Make a tetrahedron as STL."""
     corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], '<f4')
     faces = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
     if binary:
@@ -150,7 +150,7 @@ def stl(binary):
 
 
 def ply(form):
-    """A concave face and a triangle as PLY."""
+    """Make a concave face and a triangle as PLY."""
     head = (
         f'ply\nformat {form} 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n'
         'element face 2\nproperty list uchar int vertex_indices\nend_header\n'
@@ -174,7 +174,7 @@ def ply(form):
 
 
 def glb():
-    """A part of a scene as GLB."""
+    """Make a part of a scene as GLB."""
     import trimesh
 
     scene = trimesh.Scene()
@@ -215,7 +215,7 @@ def meshes():
 
 
 def npy(heights):
-    """An array as .npy."""
+    """Make an array as .npy."""
     file = BytesIO()
     np.save(file, heights)
     return file.getvalue()

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Plays every hard case with every preset at ticks of 50, 250 and 1000 Hz, and writes docs/stability.md.
+"""Plays every hard case with every preset at 50, 250 and 1000 Hz; writes docs/stability.md.
 
 The cases are those of test/physics/hard_cases, which say what is expected; `make test` plays each
 once. With them come those of hard_scenes.py, and random shots at what nothing may pass: so many at
@@ -69,7 +69,7 @@ def deviation(ball, ends):
 
 
 def outcome(course, case, accuracy):
-    """Worst deviation over the rates, what failed, and how far the ends at the rates are apart [m]."""
+    """Worst deviation over the rates, what failed, and how far apart [m] the rates end."""
     worst, failure, told = 0.0, '', []
     for rate in RATES:
         world = start(course, {**case, 'accuracy': accuracy})
@@ -89,7 +89,7 @@ def outcome(course, case, accuracy):
 
 
 def cell(worst, failure, ends):
-    """What the table says of an outcome."""
+    """Write what the table says of an outcome."""
     if failure:
         return f'*fails*, {failure}'
     return f'{worst:.1e}' if 'within' in ends else 'as it may'
@@ -134,7 +134,7 @@ def passed(count):
 
 
 def played(scene, accuracy):
-    """What the table says of a scene's figures at the rates: the worst one."""
+    """Write what the table says of a scene's figures at the rates: the worst one."""
     found = [scene.figure(accuracy, rate) for rate in RATES]
     worst = max(found, key=lambda figure: max(scene.least - figure, figure - scene.most))
     return f'{worst:.4g}' + ('' if scene.least <= worst <= scene.most else ' *fails*')

@@ -99,7 +99,7 @@ class Player:
             self.wait(lambda: self.answers() > tried)
 
     def played(self):
-        """Number of strikes in the journal."""
+        """Count the strikes in the journal."""
         return sum(entry['kind'] == 'strike' for entry in self.entries)
 
     def answers(self):
@@ -140,7 +140,7 @@ def keep_told(kept, message):
 
 
 def one_ball(player):
-    """A drive with a draw, an iron with backspin, a putt."""
+    """Play a drive with a draw, an iron with backspin, a putt."""
     for velocity, spin in ((DRIVE, DRAW), (IRON, BACKSPIN), (PUTT, (0.0, 0.0, 0.0))):
         player.strike('ball', velocity, spin)
         player.rest()

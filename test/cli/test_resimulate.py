@@ -39,7 +39,7 @@ def told():
 
 
 def lines(captured):
-    """What was printed of shots."""
+    """Find what was printed of shots."""
     return [line for line in captured.out.splitlines() if line.startswith('shot')]
 
 
@@ -120,7 +120,7 @@ def test_a_changed_collision_or_result_is_found(told, tmp_path, capsys, topic, o
 
 
 def reseal(kind, change):
-    """A change of an entry of the journal that its checksum does not tell."""
+    """Change an entry of the journal so that its checksum does not tell."""
 
     def edit(message):
         entry = {key: value for key, value in opened(message.data).items() if key != 'crc32'}

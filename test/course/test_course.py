@@ -629,7 +629,7 @@ def test_a_missing_file_and_a_folder_are_named(tmp_path):
 
 @pytest.fixture
 def special(tmp_path):
-    """What is no file: by name, what it is, and its path."""
+    """Return what is no file: by name, what it is, and its path."""
     os.mkfifo(tmp_path / 'fifo')
     for name in ('fifo.yaml', 'fifo.stl', 'fifo.npy'):
         (tmp_path / name).symlink_to(tmp_path / 'fifo')
@@ -812,7 +812,7 @@ def test_every_shipped_course_loads_and_has_a_hole_on_a_green(name):
 
 
 def frame(patch):
-    """Unit vectors of a patch: normal, along, across."""
+    """Return unit vectors of a patch: normal, along, across."""
     n = np.array(patch.normal)
     ahead = np.array([cos(patch.heading), sin(patch.heading), 0])
     along = ahead - ahead @ n * n
@@ -884,7 +884,7 @@ def outlines(course):
 
 
 def steps(course, polygon, apart=1e-7):
-    """Places along the sides of `polygon` and the heights `apart` to the left and right of them."""
+    """Places along the sides of `polygon`, and the heights `apart` to their left and right."""
     for a, b in zip(np.array(polygon), np.roll(polygon, -1, axis=0)):
         way = b - a
         places = a + np.linspace(0.0005, 0.9995, 1999)[:, None] * way

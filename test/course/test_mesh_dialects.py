@@ -385,7 +385,7 @@ def test_what_cannot_be_read_is_told_in_one_line(read, name, raw, said):
 
 
 def write_course(folder, mesh):
-    """A course of one mesh, with its entries of the course file."""
+    """Write a course of one mesh, with its entries of the course file."""
     path = folder / 'links.yaml'
     path.write_text(
         f'format: 1\ntee: [0, 0]\nhole: [10, 0]\nground:\n  - {{shape: mesh, material: green, {mesh}}}\n'

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Height maps as surveys give them: GeoTIFF and ESRI ASCII grids, missing heights, units and origins."""
+"""Height maps as surveys give them: GeoTIFF, ESRI ASCII grids, missing heights, units, origins."""
 
 from pathlib import Path
 import sys
@@ -51,7 +51,7 @@ def course(tmp_path):
 
 @pytest.fixture
 def complaint(course):
-    """The same for what is refused; gives what is said after the file's name."""
+    """Load a map that is refused; gives what is said after the file's name."""
 
     def complaint(name, more=''):
         with pytest.raises(CourseError) as caught:
@@ -72,7 +72,7 @@ def geotiff(
     corner=(EAST, NORTH),
     **more,
 ):
-    """A GeoTIFF, rows from north; `corner`: of the first height, in the south west."""
+    """Write a GeoTIFF, rows from north; `corner`: of the first height, in the south west."""
     rasterio = pytest.importorskip('rasterio')
     dx, dy = cell
     north = corner[1] + (len(heights) - 0.5) * dy
@@ -99,7 +99,7 @@ def geotiff(
 
 
 def esri(path, heights=GREEN, corner=(EAST, NORTH), cell=CELL, kind='corner', end='\n'):
-    """An ESRI ASCII grid, rows from north."""
+    """Write an ESRI ASCII grid, rows from north."""
     off = 0.5 * cell if kind == 'corner' else 0.0
     head = [
         f'ncols         {len(heights[0])}',

@@ -134,7 +134,7 @@ def topics(path):
 
 @pytest.fixture(scope='module')
 def sim(start):
-    """A sim whose journal is read."""
+    """Start a sim whose journal is read."""
     process = start('sim_node', *parameters('/journal', real_time_factor=0.0))
     process.wait_for(READY)
     return process

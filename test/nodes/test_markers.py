@@ -55,7 +55,7 @@ PIT = ((20.0, -5.0), (30.0, -5.0), (30.0, 5.0), (20.0, 5.0))
 
 @pytest.fixture(scope='module')
 def course():
-    """The shipped course."""
+    """Load the shipped course."""
     return load_course('golf_without_friends')
 
 

@@ -62,7 +62,7 @@ def first_bounce(material, velocity, spin, accuracy='standard'):
 
 
 def end_of(world):
-    """The result of the shot under way."""
+    """Play the shot under way to its end: the result."""
     return next(event for event in world.advance(301.0) if isinstance(event, Result))
 
 

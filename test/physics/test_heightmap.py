@@ -67,7 +67,7 @@ def surface(height, material=GREEN, spacing=0.5, low=(-10, -10), high=(10, 10)):
 
 
 def step():
-    """A map with a rise of 1 m over one cell of 0.5 m."""
+    """Make a map with a rise of 1 m over one cell of 0.5 m."""
     return surface(lambda x, y: 1.0 * (x > 0.1) + 0 * y, HARD, 0.5, (-4, -4), (4, 4))
 
 
@@ -284,7 +284,10 @@ def test_nothing_tunnels_through_a_steep_map():
 def test_friction_under_a_press_of_thousands_of_weights_does_not_hold_up_time(
     start, velocity, spin
 ):
-    """Ground that turns fast drives slip and spin as hard as friction takes them: no step shrinks to none."""
+    """Ground that turns fast drives slip and spin as hard as friction takes them.
+
+    No step shrinks to none.
+    """
     world = World(
         Course((step(), Plane((0, 0, -3), material=HARD))), effects=GRAVITY, accuracy='reference'
     )

@@ -111,7 +111,7 @@ class Kernel:
         self.written.discard(None)
 
     def effect(self, node):
-        """What writing to the expression `node` writes, like ``ball.spin``.
+        """Name what writing to the expression `node` writes, like ``ball.spin``.
 
         None if nothing that counts.
         """
@@ -132,7 +132,7 @@ class Kernel:
                 return None
 
     def field(self, node, record, field):
-        """What writing a field of the record `node` writes."""
+        """Name what writing a field of the record `node` writes."""
         while isinstance(node, ast.Name) and node.id in self.aliases:
             node = self.aliases[node.id]
         text = ast.unparse(node)
@@ -145,7 +145,7 @@ class Kernel:
 
 
 def aliases(function):
-    """Local names of a function that stand for a place in something else: the expressions of their places."""
+    """Local names of a function that stand for a place in something else, with its expression."""
     found = {}
     for node in ast.walk(function):
         if (
@@ -164,7 +164,7 @@ def decorators(function):
 
 
 def kernels():
-    """All kernels by name, as lists: of a generic first what it says, then its bodies for records."""
+    """All kernels by name, as lists: of a generic first what it says, then bodies for records."""
     found = {}
     for place, tree in trees():
         for function in functions(tree):
@@ -203,7 +203,7 @@ def effects():
 
 
 def of_call(kernel, call, found):
-    """What a call within a kernel writes."""
+    """Find what a call within a kernel writes."""
     name = ast.unparse(call.func).rpartition('.')[2]
     if name == 'store' or name not in KERNELS:
         return

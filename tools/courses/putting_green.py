@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A green to putt on: a ridge across it, a bowl behind the ridge, and a putt of 3 m that breaks."""
+"""A green to putt on: a ridge across it, a bowl behind that, and a putt of 3 m that breaks."""
 
 import numpy as np
 
