@@ -37,7 +37,7 @@ tee: [0, 0]
 ground:
   - {shape: plane, point: [0, 0, 0], normal: [0, 0, 1], material: sand}
 """  # a ball ends where it lands, so that one that is struck again at once is always in flight
-# m/s: some of many balls higher than others, so that they land apart
+# m/s: some of many balls go higher than others, so that they land apart
 AHEAD, UP, HIGHER = 10.0, 40.0, 30.0
 
 

@@ -37,7 +37,7 @@ from golf_sim_ros.course.package_files import share
 
 project = 'golf_sim_ros'
 author = 'golf_sim_ros maintainers'
-copyright = f'{author}, Apache-2.0'
+copyright = f'{author}, Apache-2.0'  # noqa: A001
 version = release = golf_sim_ros.__version__
 
 extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.napoleon']

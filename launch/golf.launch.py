@@ -22,6 +22,7 @@ An argument that is left out is not passed to the nodes, so it never overrides a
 from pathlib import Path
 from typing import List
 
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
 from launch.substitutions import SubstitutionFailure, TextSubstitution
@@ -29,8 +30,6 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 import yaml
-
-from launch import LaunchDescription
 
 # Arguments that are parameters of the simulator; their defaults are in config/sim.yaml.
 TEXTS = {
@@ -108,7 +107,7 @@ def simulator(given, common):
     parameters = {}
     for name in (*TEXTS, *LISTS, *NUMBERS, 'publish_clock'):
         if given[name]:
-            # None: as YAML reads it
+            # a number is read as YAML has it
             kind = str if name in TEXTS else List[str] if name in LISTS else None
             value = (
                 listed(name, given[name]) if name in LISTS else TextSubstitution(text=given[name])

@@ -15,8 +15,7 @@
 """What theory says: closed forms and independent equations, none of them taken from the package.
 
 A solid sphere has k = I / (m r^2) = 2/5. In formulas of contact, `spin` is the speed r w that the
-surface of the ball has by its spin: positive as in rolling forward, so a rolling ball has v =
-spin.
+surface of the ball has by its spin: positive as in rolling forward; in rolling v = spin.
 """
 
 from math import atan, cos, cosh, exp, expm1, log, log1p, pi, sin, sqrt, tanh

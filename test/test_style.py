@@ -32,12 +32,12 @@ SOURCES = [
 EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
 PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
 PHYSICS = ROOT / 'golf_sim_ros' / 'physics'
-# What users call of the physics, its modules right in the folder, may take more parameters: each
-# by its name.
+# What users call of the physics, its modules right in the folder, may take more parameters, by
+# name.
 OF_FEW_PARAMETERS = [path for path in SOURCES if path.parent != PHYSICS]
 MOST_BRANCHES, MOST_PARAMETERS = 15, 6
 # As ament_copyright reads it.
-HEADER = '''# Copyright 2026 golf_sim_ros maintainers
+HEADER = """# Copyright 2026 golf_sim_ros maintainers
 #
 # Licensed under the Apache License, Version 2.0 (the "License");
 # you may not use this file except in compliance with the License.
@@ -51,7 +51,7 @@ HEADER = '''# Copyright 2026 golf_sim_ros maintainers
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-'''
+"""
 
 
 def name(path):

@@ -37,10 +37,10 @@ from golf_sim_ros.physics import (
 from golf_sim_ros.physics.effects.drag import DragLaw
 from golf_sim_ros.physics.effects.magnus import LiftLaw
 import matplotlib
+from matplotlib import pyplot as plt
 import numpy as np
 
 matplotlib.use('Agg')
-from matplotlib import pyplot as plt  # noqa: E402
 
 DOCS = Path(__file__).parents[1] / 'docs'
 LAWS = {
@@ -106,9 +106,8 @@ def print_runs():
     print('| shot | carry [yd] | from there [yd] |\n|---|---|---|')
     for label, material, *shot in RUNS:
         (end,) = simulate_many(ground(material), *strikes(*shot))
-        print(
-            f'| {label} | {end["carry"] / YARD:.1f} | {(end["position"][0] - end["carry"]) / YARD:.1f} |'
-        )
+        rolled = end['position'][0] - end['carry']
+        print(f'| {label} | {end["carry"] / YARD:.1f} | {rolled / YARD:.1f} |')
 
 
 def draw_flights(axes):

@@ -196,9 +196,8 @@ def main():
     for name in TABLES:
         for label, errors in zip(FIGURES, table_errors(best, name)):
             if np.isfinite(errors).all():
-                print(
-                    f'{name} {label}: mean {np.abs(errors).mean():.2f}, worst {np.abs(errors).max():.2f}'
-                )
+                off = np.abs(errors)
+                print(f'{name} {label}: mean {off.mean():.2f}, worst {off.max():.2f}')
     errors, _ = point_errors(best)
     print(f'points: root mean square {np.sqrt((errors**2).mean()):.4f}')
 

@@ -48,9 +48,10 @@ def main(args=None):
         found = run(kind, options)
         faults += len(found['faults'])
         print(
-            f'{kind}: {found["read"]} read, {found["refused"]} refused, {len(found["faults"])} faults; '
-            f'seed {options.seed}, numbers {options.first} to {options.first + options.count - 1}; at most '
-            f'{found["time"]:.2f} s and {found["memory"] / 1e6:.0f} MB',
+            f'{kind}: {found["read"]} read, {found["refused"]} refused, '
+            f'{len(found["faults"])} faults; seed {options.seed}, '
+            f'numbers {options.first} to {options.first + options.count - 1}; '
+            f'at most {found["time"]:.2f} s and {found["memory"] / 1e6:.0f} MB',
             flush=True,
         )
         for number, fault in found['faults']:

@@ -23,7 +23,7 @@ import pytest
 
 pytest.importorskip('matplotlib')
 pytest.importorskip('rosbags')
-from golf_sim_ros.cli.plot_play import main  # noqa: E402
+from golf_sim_ros.cli.plot_play import main  # noqa: E402, I100
 from golf_sim_ros.drawing import recorded  # noqa: E402
 from golf_sim_ros.drawing.wind import blown  # noqa: E402
 from golf_sim_ros.recording.bag import read_bag  # noqa: E402

@@ -32,7 +32,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip('matplotlib')
-from golf_sim_ros import drawing  # noqa: E402
+from golf_sim_ros import drawing  # noqa: E402, I100
 from golf_sim_ros.drawing import window  # noqa: E402
 from golf_sim_ros.drawing.shots import detailed  # noqa: E402
 from matplotlib.colors import to_rgb  # noqa: E402

@@ -43,11 +43,12 @@ def shooting(start, namespace, *more):
 def struck(client):
     """Listen to the journal: a function that gives its strikes so far."""
     entries = client.listen(String, 'journal', 100)
-    return lambda: [
-        entry
-        for entry in map(lambda message: json.loads(message.data), entries)
-        if entry['kind'] == 'strike'
-    ]
+
+    def strikes():
+        told = (json.loads(message.data) for message in entries)
+        return [entry for entry in told if entry['kind'] == 'strike']
+
+    return strikes
 
 
 def test_a_sim_tells_its_heartbeat_and_a_stopped_one_does_not(sim_in, make_client):

@@ -76,12 +76,13 @@ def flights(course, begins, times, rate, accuracy, others=0):
     """
     balls = 1 + others
     world = World(course, AT_ONCE * balls, accuracy=accuracy)
-    # by name takes most of the time
+    # Looking balls up by name takes most of the time.
     names, rows = np.reshape(world.names, (AT_ONCE, balls)), world._balls
     nowhere = world.state()
     order = np.argsort(times)
     for first in range(0, len(times), AT_ONCE):
-        numbers = order[first : first + AT_ONCE]
+        last = first + AT_ONCE
+        numbers = order[first:last]
         world.restore(nowhere)
         for ball in range(balls):
             for number, own in zip(numbers, names):
@@ -227,7 +228,7 @@ def spline(heights, spacing):
     n = len(heights)
     matrix, right = np.eye(n), np.zeros(n)
     for i in range(1, n - 1):
-        matrix[i, i - 1 : i + 2] = 1.0, 4.0, 1.0
+        matrix[i, [i - 1, i, i + 1]] = 1.0, 4.0, 1.0
         right[i] = 6.0 * (heights[i - 1] - 2.0 * heights[i] + heights[i + 1]) / spacing**2
     bends = np.linalg.solve(matrix, right)
 

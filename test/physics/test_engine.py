@@ -309,6 +309,8 @@ def compiled_where_nothing_can_be_written():
     compiled = []
 
     class Listener(event.Listener):
+        """Notes whose functions are compiled."""
+
         def on_start(self, told):
             compiled.append(told.data['dispatcher'].py_func.__module__)
 

@@ -141,5 +141,5 @@ class Lethal:
     def __init__(self, executor):
         self.executor = executor
 
-    def map(self, function, parts):
+    def map(self, function, parts):  # noqa: A003
         return self.executor.map(die, parts)

@@ -120,8 +120,9 @@ def typical_error(places, truth):
     [
         ('euler', 1, 1, (50, 100, 200)),
         ('rk4', 4, 5, (16, 32, 64)),
-        # A narrow range: from 6 to 24 steps the drag crisis is not resolved (slope 6 to 7), beyond 48
-        # the error hardly falls (3e-11 m at 96). Between neighbours in it the order is 6.3 and 3.5.
+        # A narrow range: from 6 to 24 steps the drag crisis is not resolved (slope 6 to 7), beyond
+        # 48 the error hardly falls (3e-11 m at 96). Between neighbours in it the order is 6.3 and
+        # 3.5.
         ('fixed_dormand_prince', 5, 7, (24, 36, 48)),
     ],
 )

@@ -115,7 +115,8 @@ def saved(tmp_path, text):
     'what, reason',
     [
         (
-            'obstacles: [{shape: cylinder, base: [0, 0, 0], radius: 0.3, height: 8, material: rough}]',
+            'obstacles:\n'
+            '  - {shape: cylinder, base: [0, 0, 0], radius: 0.3, height: 8, material: rough}',
             'obstacle',
         ),
         (

@@ -27,41 +27,23 @@ from golf_sim_ros.physics.state.ball import BALL
 import pytest
 from sources import field_of, functions, targets, trees
 
-# What a name in a docstring stands for, beside the name of a field: of a ball, if nothing else is
-# said.
+# What a name in a docstring stands for, beside the name of a field: of a ball, if none is named.
 CURVE = ('span', 'origin', 'position_coefficients', 'spin_coefficients')
 LANDING = ('landed', 'landing', 'landed_at', 'landing_velocity')
 WARM_START = ('stored_count', 'stored_partners', 'stored_impulses')
 MICRO_BOUNCES = ('micro_bounce_end', 'micro_bounce_load', 'micro_bounce_air')
 INTEGRATOR = ('step', 'stages', 'last_stage_time', 'evaluations')
+# fmt: off
 PILE = (
-    'time_stepping',
-    'still_steps',
-    'held_by',
-    'rolling_loss',
-    'contact_reach',
-    'watches_neighbours',
-    'sleeps_on_ball',
-    'rapid_impacts',
-    *WARM_START,
+    'time_stepping', 'still_steps', 'held_by', 'rolling_loss', 'contact_reach',
+    'watches_neighbours', 'sleeps_on_ball', 'rapid_impacts', *WARM_START,
 )
 SHOT = (
-    'shot_active',
-    'moved_by_ball',
-    'struck',
-    'struck_at',
-    'launch',
-    'launch_spin',
-    'apex',
-    *LANDING,
-    'bounces',
-    'ended',
-    'over_time',
-    'failed',
-    'counted_until',
-    'segments_spent',
+    'shot_active', 'moved_by_ball', 'struck', 'struck_at', 'launch', 'launch_spin', 'apex',
+    *LANDING, 'bounces', 'ended', 'over_time', 'failed', 'counted_until', 'segments_spent',
     'zero_length_segments',
 )
+# fmt: on
 GROUPS = {
     'motion': ('position', 'velocity', 'spin'),
     'contact': ('support', 'material', 'normal'),
