@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What more of everything costs: triangles under a ball, balls that move, balls that fall into a heap."""
+"""What more of everything costs: triangles under a ball, moving balls, balls falling on a heap."""
 
 from math import cos, log, sin
 from pathlib import Path

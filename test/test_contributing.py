@@ -35,12 +35,15 @@ course = load_course('golf_without_friends')
 carry = simulate(course, drive, engine='python').result.carry
 wet = simulate(course._replace(rain=50.0), drive, engine='python').result.carry
 print(carry - wet)
+midpoint = Preset(METHODS['midpoint'].record(0.02), ACCURACY['standard'].limits)
 off = [abs(simulate(course, drive, engine='python', accuracy=preset).result.carry - carry)
-       for preset in ('rough', Preset(METHODS['midpoint'].record(0.02), ACCURACY['standard'].limits))]
+       for preset in ('rough', midpoint)]
 print(*off)
-print(simulate(load_course('yard'), Shot((9.0, 0.0, 6.0), (0.0, -100.0, 0.0)), engine='python').result.status)
+chip = Shot((9.0, 0.0, 6.0), (0.0, -100.0, 0.0))
+print(simulate(load_course('yard'), chip, engine='python').result.status)
 clay = load_course('yard').ground[0].material
-world = World(Course(ground=(Plane(material=clay), Cone((3.0, 0.0, 0.0), 1.0, 0.2, clay))), engine='python')
+ground = Plane(material=clay), Cone((3.0, 0.0, 0.0), 1.0, 0.2, clay)
+world = World(Course(ground=ground), engine='python')
 world.strike('ball', (3.5, 0.05, 0.0), (0.0, 0.0, 0.0))
 heights = []
 while world.moving:
@@ -73,7 +76,7 @@ def insert(path, after, line):
 
 @pytest.fixture(scope='module')
 def told(tmp_path_factory):
-    """What `PLAY` prints in a copy with the examples."""
+    """Run `PLAY` in a copy with the examples: what it prints."""
     copy = tmp_path_factory.mktemp('checkout')
     for folder in ('golf_sim_ros', 'config'):
         shutil.copytree(ROOT / folder, copy / folder, ignore=shutil.ignore_patterns('__pycache__'))

@@ -18,12 +18,9 @@ import os
 import subprocess
 import sys
 
+from golf_sim_ros.cli.closed_pipe import UNREAD
 import pytest
-
-pytest.importorskip('rosbags')
-
-from golf_sim_ros.cli.closed_pipe import UNREAD  # noqa: E402
-from recorded_play import bag, Sim  # noqa: E402
+from recorded_play import bag, Sim
 
 TOOLS = ('resimulate', 'plot_play', 'shoot', 'record_play', 'accuracy_study')
 PLAIN = {**os.environ, 'NUMBA_DISABLE_JIT': '1', 'MPLBACKEND': 'agg'}

@@ -12,10 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The contract of every registered effect: documented, finite, repeatable.
-
-Absent is the same as off.
-"""
+"""Contract of every registered effect: documented, finite, repeatable; absent is as off."""
 
 from itertools import product
 from math import isfinite
@@ -99,7 +96,7 @@ def test_an_effect_is_a_record_of_finite_numbers(name):
 
 @pytest.fixture(scope='module')
 def told():
-    """What each effect says, differs by, and changes where auto leaves it out.
+    """Find what each effect says, differs by, and changes where auto leaves it out.
 
     From two processes.
     """
@@ -130,7 +127,7 @@ def test_an_effect_is_finite_and_repeatable(name, told):
 
 @entry
 def asked(effect, ground, flow, force):
-    """What an effect says of a flying ball: acceleration, spin rate, longest step."""
+    """Ask an effect of a flying ball: acceleration, spin rate, longest step."""
     return (
         protocol.acceleration(effect, flow),
         protocol.spin_rate(effect, flow),
@@ -157,7 +154,7 @@ def test_an_effect_says_the_same_compiled(name, told):
 
 
 def answers(name):
-    """What an effect alone says of many states, extreme ones too: acceleration, spin rate, pull, normal."""
+    """Ask an effect alone of many states, extreme too: acceleration, spin rate, pull, normal."""
     told = []
     speeds = (
         (0, 0, 0),
@@ -210,7 +207,7 @@ def test_an_effect_that_auto_leaves_out_would_change_nothing(name, told):
 
 
 def ends_without_and_with(name):
-    """Ends of a shot by auto and by auto with `name`, in all scenes where auto leaves it out."""
+    """End a shot by auto and by auto with `name`, in all scenes where auto leaves it out."""
     pairs = []
     for scene in SCENES.values():
         on, off, *_ = choose('auto', scene)
@@ -232,7 +229,7 @@ def test_an_effect_that_is_on_matters(name, told):
 
 
 def difference(name):
-    """By how much [m] a shot in the wind would come to rest elsewhere, or come down, without an effect."""
+    """Find how far off [m] a shot in the wind would come to rest, or down, without an effect."""
     scene = SCENES['wind']
     others = [
         other
@@ -254,7 +251,7 @@ def test_the_order_of_the_names_does_not_matter():
 
 
 def ends_in_orders():
-    """Ends of a shot with the same effects named in two orders."""
+    """End a shot with the same effects named in two orders."""
     names = ('gravity', 'drag', 'magnus')
     return [end(SCENES['calm turf'], order) for order in (names, names[::-1])]
 
@@ -287,9 +284,9 @@ def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_plans_no_seg
 
 
 def evaluations():
-    """Evaluations of the rates of flight: of a short flight, of a roll at two times.
+    """Count evaluations of the rates of flight: of a short flight, of a roll at two times.
 
-    The end of the rest.
+    The last number is the end of the rest.
     """
     world, told = World(level(TURF)), []
     for velocity in ((3.0, 0.0, 3.0), (2.0, 0.0, 0.0)):
@@ -357,7 +354,7 @@ def test_another_package_can_add_an_effect():
 
 
 def ends_with_down_draught():
-    """Ends of a shot without and with an effect that another package registers."""
+    """End a shot without and with an effect that another package registers."""
     from typing import NamedTuple
 
     from golf_sim_ros.physics.effects import protocol
