@@ -123,7 +123,8 @@ def placed(grid, entry, name, notes):
         heights = filled(np.where(absent, np.nan, heights))
     check_reach(heights, where)
     notes += [f'{name}: {note}' for note in jumps(heights, where)]
-    return Heightmap(tuple(map(tuple, heights.tolist())), origin, spacing, entry['material'])
+    heights.setflags(write=False)
+    return Heightmap(heights, origin, spacing, entry['material'])
 
 
 class Places:

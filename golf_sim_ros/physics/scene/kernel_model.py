@@ -18,13 +18,29 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .course_record import Ball
+from .course_record import Ball, Course
+from .kept import kept
 from .. import geometry as ground_
 from ..effects import protocol
 from ..geometry.cup import cup_in, opening
 from ..geometry.solid import Flagstick
 from ..geometry.surfaces import Ground
 from ..properties.material import table
+
+# Fields of a course that its ground does not depend on, at one value for all.
+BESIDE_GROUND = Course(())._asdict()
+for _field in (
+    'ground',
+    'hole',
+    'flagstick',
+    'cup',
+    'stick',
+    'bounds',
+    'zones',
+    'obstacles',
+    'water',
+):
+    del BESIDE_GROUND[_field]
 
 
 class Nothing(NamedTuple):
@@ -123,10 +139,16 @@ def speaking(records, *some):
 
 
 def ground(course):
-    """`Ground` of a course for kernels.
+    """`Ground` of a course for kernels: built once a course, and shared, so nobody writes into it.
 
     ValueError where the hole is in ground that is too uneven.
     """
+    return built(course._replace(**BESIDE_GROUND))
+
+
+@kept
+def built(course):
+    """`Ground` of a `course`, in all that matters to it."""
     number = {material: i for i, material in enumerate(materials(course))}
     if course.hole is None:
         return ground_.build(
@@ -147,5 +169,11 @@ def ground(course):
 
 def bare_ground(course):
     """`Ground` of a course without obstacles, hole and flagstick, for queries of its height."""
+    return built_bare(course._replace(**BESIDE_GROUND))
+
+
+@kept
+def built_bare(course):
+    """`bare_ground` of a `course`, in all that matters to it."""
     number = {material: i for i, material in enumerate(materials(course))}
     return ground_.build(course.ground, course.zones, course.bounds, None, number)
