@@ -133,7 +133,8 @@ def placed(grid: Grid, entry: dict[str, Any], name: str, notes: list[str]) -> He
         heights = filled(np.where(absent, np.nan, heights))
     check_reach(heights, where)
     notes += [f'{name}: {note}' for note in jumps(heights, where)]
-    return Heightmap(tuple(map(tuple, heights.tolist())), origin, spacing, entry['material'])
+    heights.setflags(write=False)
+    return Heightmap(heights, origin, spacing, entry['material'])
 
 
 class Places:

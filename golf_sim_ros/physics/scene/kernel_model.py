@@ -21,6 +21,7 @@ from typing import Any, NamedTuple, TYPE_CHECKING
 import numpy as np
 
 from .course_record import Ball, Course
+from .kept import kept
 from .. import geometry as ground_
 from ..effects import protocol
 from ..geometry.cup import cup_in, opening
@@ -32,6 +33,19 @@ from ..properties.material import Material, table
 
 if TYPE_CHECKING:
     from .presets import Preset
+
+# Fields of a course that its ground depends on.
+OF_GROUND = (
+    'ground',
+    'hole',
+    'flagstick',
+    'cup',
+    'stick',
+    'bounds',
+    'zones',
+    'obstacles',
+    'water',
+)
 
 
 class Nothing(NamedTuple):
@@ -129,11 +143,24 @@ def speaking(records: Effects, *some: GenericKernel[..., Any]) -> Effects:
     return tuple(r for r in records if any(type(r) in law.cases for law in some)) or (Nothing(),)
 
 
+def of_ground(course: Course) -> Course:
+    """Return `course` without what does not matter to its ground."""
+    return Course(**{name: getattr(course, name) for name in OF_GROUND})
+
+
 def ground(course: Course) -> Ground:
     """`Ground` of a course for kernels.
 
+    It is built once a course, and shared, so nobody writes into it.
+
     ValueError where the hole is in ground that is too uneven.
     """
+    return built(of_ground(course))
+
+
+@kept
+def built(course: Course) -> Ground:
+    """`Ground` of a `course`, in all that matters to it."""
     number = {material: i for i, material in enumerate(materials(course))}
     if course.hole is None:
         return ground_.build(
@@ -154,5 +181,11 @@ def ground(course: Course) -> Ground:
 
 def bare_ground(course: Course) -> Ground:
     """`Ground` of a course without obstacles, hole and flagstick, for queries of its height."""
+    return built_bare(of_ground(course))
+
+
+@kept
+def built_bare(course: Course) -> Ground:
+    """`bare_ground` of a `course`, in all that matters to it."""
     number = {material: i for i, material in enumerate(materials(course))}
     return ground_.build(course.ground, course.zones, course.bounds, None, number)
