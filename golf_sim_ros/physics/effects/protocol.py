@@ -115,6 +115,27 @@ def contact_normal(effect, normal, velocity, softness):
     return normal
 
 
+class Hit(NamedTuple):
+    """Impact with ground of a `normal`, after which a ball would leave by `push` alone.
+
+    ``velocity``: before [m/s]; ``felt``: effective contact normal; ``push``: impulse over mass
+    [m/s]; ``restitution``: at the approach along ``normal``; ``softness`` of the ground.
+    """
+
+    velocity: tuple
+    normal: tuple
+    felt: tuple
+    push: tuple
+    restitution: float
+    softness: float
+
+
+@generic
+def rebound(effect, hit, velocity):
+    """Velocity [m/s] of a ball after a `hit` that without the `effect` would leave at `velocity`."""
+    return velocity
+
+
 @generic
 def set_wind(effect, wind):
     """Set the `wind` [m/s at 10 m] that is in the record of an `effect`, if it holds any."""

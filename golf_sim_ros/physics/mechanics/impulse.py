@@ -72,9 +72,21 @@ def impulse(bond, velocity, spin, normal, radius):
 
 
 @kernel
-def apply_impulse(ball, push, normal, record):
-    """Apply the impulse `push` [N s] at the contact point of `normal`. Writes velocity, spin."""
-    store(ball['velocity'], add_scaled(load(ball['velocity']), 1.0 / record.mass, push))
+def after_impulse(velocity, spin, push, normal, record):
+    """Velocity and spin of a ball after the impulse `push` [N s] at the contact point of `normal`."""
     turn = scale(-record.radius, cross(normal, push))
     inertia = record.inertia * record.mass * record.radius * record.radius
-    store(ball['spin'], add_scaled(load(ball['spin']), 1.0 / inertia, turn))
+    return (
+        add_scaled(velocity, 1.0 / record.mass, push),
+        add_scaled(spin, 1.0 / inertia, turn),
+    )
+
+
+@kernel
+def apply_impulse(ball, push, normal, record):
+    """Apply the impulse `push` [N s] at the contact point of `normal`. Writes velocity, spin."""
+    velocity, spin = after_impulse(
+        load(ball['velocity']), load(ball['spin']), push, normal, record
+    )
+    store(ball['velocity'], velocity)
+    store(ball['spin'], spin)
