@@ -263,6 +263,14 @@ def effective_normal(
     return normal
 
 
+@kernel
+def velocity_after(effects: Effects, hit: protocol.Hit, velocity: Vector) -> Vector:
+    """Velocity of a ball after a `hit` that without the effects would leave at `velocity`."""
+    for effect in literal_unroll(effects):
+        velocity = protocol.rebound(effect, hit, velocity)
+    return velocity
+
+
 def _discover() -> None:
     for module in pkgutil.iter_modules(__path__):
         found = importlib.import_module(f'{__name__}.{module.name}')

@@ -124,6 +124,27 @@ def contact_normal(
     return normal
 
 
+class Hit(NamedTuple):
+    """Impact with ground of a `normal`, after which a ball would leave by `push` alone.
+
+    ``velocity``: before [m/s]; ``felt``: effective contact normal; ``push``: impulse over mass
+    [m/s]; ``restitution``: at the approach along ``normal``; ``softness`` of the ground.
+    """
+
+    velocity: tuple
+    normal: tuple
+    felt: tuple
+    push: tuple
+    restitution: float
+    softness: float
+
+
+@generic
+def rebound(effect: EffectRecord, hit: Hit, velocity: Vector) -> Vector:
+    """Velocity [m/s] after a `hit` of a ball that would leave at `velocity` without the `effect`."""
+    return velocity
+
+
 @generic
 def set_wind(effect: EffectRecord, wind: Vector) -> None:
     """Set the `wind` [m/s at 10 m] that is in the record of an `effect`, if it holds any."""

@@ -35,7 +35,7 @@ from ..contact.contact_state import (
     touch_down,
 )
 from ..contact.curved_motion import curved_segment
-from ..contact.plane_motion import plane_segment
+from ..contact.plane_motion import plane_segment, resists_evenly
 from ..effects import flight_rates, gravity_at
 from ..geometry import surfaces
 from ..geometry.water_surface import water_at
@@ -216,8 +216,8 @@ def end_segment(model: ModelRecord, ball: BallRecord, now: float, until: float) 
 def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     """Plan a segment of a ball in contact; what it is on, such as ON_FLAT.
 
-    The ball may turn out to lift off. Writes motion, phase, contact, curve, ending, integrator,
-    segments_spent.
+    The ball may turn out to lift off. Writes motion, phase, contact, on_flat, curve, ending,
+    integrator, segments_spent.
     """
     land = model.land
     is_flat = surfaces.flat_under(land.ground, ball['support'], load(ball['position']))
@@ -228,8 +228,13 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     ahead = unit(load(ball['velocity']), ZERO)
     _, normal = surfaces.under(land.ground, ball['support'], load(ball['position']), ahead)
     store(ball['normal'], normal)
-    if flat_ground_goes_on(land, ball):  # in closed form
-        plane_segment(land, ball, now)
+    goes_on = flat_ground_goes_on(land, ball)
+    ball['on_flat'] = 1 if goes_on else 0
+    if goes_on:
+        if resists_evenly(land, ball, now):  # in closed form
+            plane_segment(land, ball, now)
+        else:
+            curved_segment(model, ball, now)
         return ON_FLAT
     ball['material'] = contact_material_number(land, ball, ball['support'], normal)
     curved_segment(model, ball, now)

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Equations of motion: of a ball in flight, and of one on ground which is not flat."""
+"""Equations of motion: of a ball in flight, and of one in contact with ground."""
 
 from ..effects import flight_rates, gravity_at, sinking
 from ..geometry import surfaces
@@ -71,6 +71,12 @@ def rolling_deceleration(material: MaterialRecord, press: float, needed: float) 
 
 
 @kernel
+def growth_rate(material: MaterialRecord, press: float) -> float:
+    """Growth of a rolling ball's deceleration with the square of its speed [1/m]."""
+    return material['rolling_resistance'] * material['resistance_growth'] * press
+
+
+@kernel
 def rolling_needs(downhill: Vector, inertia: float) -> float:
     """Friction over mass [m/s^2] that turns a ball as it rolls down a plane without slip."""
     return inertia / (1.0 + inertia) * length(downhill)
@@ -112,24 +118,45 @@ def micro_bounce_forces(
     return ball['micro_bounce_load'] * press, add(downhill, along_ground)
 
 
+@kernel
+def supporting_surface(land: Land, ball: BallRecord, place: Vector) -> tuple[float, Vector]:
+    """Distance of `place` from the surface that supports the ball, and the normal there.
+
+    Flat ground counts as a plane without end: it is left at a border, an event of its own.
+    """
+    if ball['on_flat'] == 1:
+        normal = load(ball['normal'])
+        return land.ball.radius + dot(sub(place, load(ball['position'])), normal), normal
+    return surfaces.nearest(land.ground, ball['support'], place)
+
+
+@kernel
+def turn_of_normal(land: Land, ball: BallRecord, place: Vector, velocity: Vector) -> Vector:
+    """Rate of change of the normal of the supporting surface, as the ball moves at `velocity`."""
+    if ball['on_flat'] == 1:
+        return ZERO
+    return surfaces.turn(land.ground, ball['support'], place, velocity)
+
+
 @shared
 def contact_rates(
     land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
 ) -> tuple[Vector, Vector, float, float]:
     """Acceleration, angular acceleration, press, and friction needed to roll.
 
-    Of a ball on ground which is not flat. A press below 0 means that the ground would have to
-    pull.
+    Of a ball in contact. A press below 0 means that the ground would have to pull.
 
     With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
     mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =
     g_t + k r w_n (n x n'). A sliding ball has dynamic friction against its slip instead, or, where
-    it only begins to slip, along the friction that rolling would need.
+    it only begins to slip, along the friction that rolling would need. What of the resistance
+    grows with speed acts on the centre: 1 + k times the deceleration that it gives a rolling ball,
+    whose spin it has to slow as well.
     """
     r = land.ball.radius
     k = land.ball.inertia
-    _, normal = surfaces.nearest(land.ground, ball['support'], place)
-    turn = surfaces.turn(land.ground, ball['support'], place, velocity)
+    _, normal = supporting_surface(land, ball, place)
+    turn = turn_of_normal(land, ball, place, velocity)
     press, downhill = surfaces.slope(gravity_at(land.effects, place), normal)
     material = material_under(land, ball)
     pressing = press - dot(velocity, turn)
@@ -143,8 +170,9 @@ def contact_rates(
     free = scale(1.0 / (1.0 + k), add_scaled(downhill, k * r * about, cross(normal, turn)))
     needed = length(sub(free, downhill))
     resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
+    growing = 0.0 if tail else growth_rate(material, press) * length(velocity)
     if length(velocity) > LEAST_SPEED:
-        free = add_scaled(free, -resistance / length(velocity), velocity)
+        free = add_scaled(free, -resistance / length(velocity) - growing, velocity)
     else:  # from rest it sets off along what drives it, if that exceeds the resistance
         free = scale(max(1.0 - resistance / max(length(free), 1e-300), 0.0), free)
     friction = sub(free, downhill)
@@ -153,6 +181,7 @@ def contact_rates(
         if length(against) <= LEAST_SPEED:
             against = friction
         friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
+        downhill = add_scaled(downhill, -(1.0 + k) * growing, velocity)
     force = add_scaled(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
     # no slip: the spin follows the velocity, which resistance brakes, too
