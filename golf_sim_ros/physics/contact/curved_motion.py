@@ -24,7 +24,7 @@ geometric series, and what is left is removed at once when it no longer counts.
 from math import inf
 
 from .contact_state import choose_contact_mode, in_micro_bounces, remove_slip
-from ..effects import flight_rates, gravity_at
+from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..integrators import step
 from ..jit import kernel, shared
@@ -132,7 +132,7 @@ def press_with_air(
     """Press [m/s^2] of weight and aerodynamic forces together.
 
     Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be
-    back at once. Elsewhere the air does not act on a ball on the ground.
+    back at once. Elsewhere only moving air acts on a ball on the ground: see `moving_air`.
     """
     _, normal = surfaces.nearest(model.land.ground, ball['support'], place)
     turn = surfaces.turn(model.land.ground, ball['support'], place, velocity)
@@ -282,8 +282,13 @@ def gained(land: Land, ball: BallRecord) -> float:
         weight, way
     )
     if in_micro_bounces(ball, ball['begin']):
-        gain -= length(load(ball['micro_bounce_air'])) * ball['span'] * max(length(v0), length(v1))
-    return gain
+        push = length(load(ball['micro_bounce_air']))
+    else:
+        push = max(
+            length(moving_air(land.air, land.ground, place, v0, w0)),
+            length(moving_air(land.air, land.ground, add(place, way), v1, w1)),
+        )
+    return gain - push * ball['span'] * max(length(v0), length(v1))
 
 
 @shared

@@ -30,7 +30,7 @@ import pkgutil
 from typing import Callable, Iterable, NamedTuple, Optional, Sequence, Union
 
 from . import protocol
-from ..geometry.surfaces import Ground
+from ..geometry.surfaces import Ground, in_cup
 from ..jit import kernel, literal_unroll
 from ..kernel_types import CourseRecord, EffectRecord, Effects, Vector
 from ..mechanics.vector import add, length, sub, ZERO
@@ -212,6 +212,28 @@ def flight_rates(
         )
         torque = add(torque, protocol.spin_rate(effect, flow))
     return force, torque
+
+
+@kernel
+def moving_air(
+    effects: Effects, ground: Ground, position: Vector, velocity: Vector, spin: Vector
+) -> Vector:
+    """Acceleration of a ball in contact by moving air, less that by still air.
+
+    What still air does to a ball on the ground is in its rolling resistance, as a stimpmeter
+    measures it. In the hole the air is still.
+    """
+    wind = wind_at(effects, ground, position)
+    if wind == ZERO or len(ground.hole) > 0 and in_cup(ground.hole, position):
+        return ZERO
+    through = sub(velocity, wind)
+    blown = protocol.Flow(through, length(through), spin, position, velocity)
+    still = protocol.Flow(velocity, length(velocity), spin, position, velocity)
+    force = ZERO
+    for effect in literal_unroll(effects):
+        more = sub(protocol.acceleration(effect, blown), protocol.acceleration(effect, still))
+        force = add(force, more)
+    return force
 
 
 @kernel

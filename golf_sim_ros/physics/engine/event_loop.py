@@ -349,11 +349,11 @@ def play_all(
 
 @kernel
 def end_now(ball: BallRecord, now: float) -> None:
-    """End a flying ball's segment at `now`, since its surroundings have changed.
+    """End a moving ball's segment at `now`, since its surroundings have changed.
 
     Writes end, ending, last_stage_time. The last stage holds rates in the old surroundings.
     """
-    if ball['phase'] == FLIGHT:
+    if moves(ball['phase']):
         ball['end'] = now
         ball['ending'] = STEP_END
         ball['last_stage_time'] = -1.0

@@ -30,13 +30,14 @@ from ..collision.water_entry import first_water_entry
 from ..contact.contact_state import (
     contact_material_number,
     heading,
+    in_micro_bounces,
     remove_slip,
     set_support,
     touch_down,
 )
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment, resists_evenly
-from ..effects import flight_rates, gravity_at
+from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..geometry.water_surface import water_at
 from ..integrators import step
@@ -231,7 +232,7 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     goes_on = flat_ground_goes_on(land, ball)
     ball['on_flat'] = 1 if goes_on else 0
     if goes_on:
-        if resists_evenly(land, ball, now):  # in closed form
+        if resists_evenly(land, ball, now) and is_in_still_air(land, ball, now):  # in closed form
             plane_segment(land, ball, now)
         else:
             curved_segment(model, ball, now)
@@ -239,6 +240,13 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     ball['material'] = contact_material_number(land, ball, ball['support'], normal)
     curved_segment(model, ball, now)
     return ON_CURVE if surfaces.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
+
+
+@kernel
+def is_in_still_air(land: Land, ball: BallRecord, now: float) -> bool:
+    """Whether no moving air pushes a ball in contact, beside what micro-bounces have of it."""
+    state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
+    return in_micro_bounces(ball, now) or moving_air(land.air, land.ground, *state) == ZERO
 
 
 @shared

@@ -14,7 +14,7 @@
 
 """Equations of motion: of a ball in flight, and of one in contact with ground."""
 
-from ..effects import flight_rates, gravity_at, sinking
+from ..effects import flight_rates, gravity_at, moving_air, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Land, MaterialRecord, ModelRecord, Vector
@@ -119,6 +119,14 @@ def micro_bounce_forces(
 
 
 @kernel
+def pull_at(land: Land, place: Vector, velocity: Vector, spin: Vector) -> Vector:
+    """Acceleration of a ball in contact by its weight and by moving air."""
+    return add(
+        gravity_at(land.effects, place), moving_air(land.air, land.ground, place, velocity, spin)
+    )
+
+
+@kernel
 def supporting_surface(land: Land, ball: BallRecord, place: Vector) -> tuple[float, Vector]:
     """Distance of `place` from the surface that supports the ball, and the normal there.
 
@@ -157,13 +165,15 @@ def contact_rates(
     k = land.ball.inertia
     _, normal = supporting_surface(land, ball, place)
     turn = turn_of_normal(land, ball, place, velocity)
-    press, downhill = surfaces.slope(gravity_at(land.effects, place), normal)
+    # Micro-bounces have the force of all air already.
+    tail = ball['micro_bounce_end'] > ball['begin']
+    pull = gravity_at(land.effects, place) if tail else pull_at(land, place, velocity, spin)
+    press, downhill = surfaces.slope(pull, normal)
     material = material_under(land, ball)
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
     # Single impacts do not brake a rolling ball, so neither do micro-bounces.
-    tail = ball['micro_bounce_end'] > ball['begin']
     load = press
     if tail:
         load, downhill = micro_bounce_forces(ball, normal, press, downhill)
