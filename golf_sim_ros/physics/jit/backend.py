@@ -106,7 +106,8 @@ def declare_generic(generic):
     choose = f'choose_{generic.__name__}'
     exec(f'def {choose}({names}): return pick({names})', scope)
     options = {'no_cpython_wrapper': True, **linking.options(False)}
-    overload(generic, jit_options=options)(scope[choose])
+    # Not strict: that compares annotations, too; `parameters` has compared what counts.
+    overload(generic, jit_options=options, strict=False)(scope[choose])
 
 
 def stand_for(function, intrinsic):
