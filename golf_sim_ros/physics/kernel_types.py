@@ -29,6 +29,13 @@ Box = tuple[Vector, Vector]
 # position, velocity and spin side by side, or their rates, as integrators handle them
 MotionState = tuple[float, float, float, float, float, float, float, float, float]
 
+# Bernstein coefficients of a segment's height over a plane
+Heights = tuple[float, float, float, float, float, float]
+# height of a bicubic surface, and its derivatives by x, y, xx, xy and yy
+SurfacePoint = tuple[float, float, float, float, float, float]
+# a rectangle in plan: least x and y, greatest x and y
+Rectangle = tuple[float, float, float, float]
+
 # a row of a `state.ball.BALL` array, or such an array of no dimensions
 BallRecord = Any
 # a row of a `collision.workspace.CONTACT` array
@@ -49,5 +56,6 @@ Land = Any
 ModelRecord = Any
 # a `SingleBallWorkspace` or a `MultiBallWorkspace` of `collision`
 WorkRecord = Any
-# a `scene.course_record.Course`, where effects look at it
+# a `scene.course_record.Course`, where effects look at it, and its `scene.course_record.Ball`
 CourseRecord = Any
+BallProperties = Any
