@@ -49,6 +49,8 @@ EffectRecord = Any
 Effects = tuple[EffectRecord, ...]
 # a kind of ground, as `geometry.mesh.Meshes`
 KindRecord = Any
+# a shape of a course, as `geometry.plane.Plane`
+ShapeRecord = Any
 # an integrator, as `integrators.dormand_prince.DormandPrince`
 MethodRecord = Any
 # a `scene.kernel_model.GroundScene`, and a `scene.kernel_model.Model`
