@@ -14,26 +14,31 @@
 
 """Batch of shots, each from the tee: the choice of the engine, and their results."""
 
-from typing import NamedTuple
+from typing import Any, Callable, Iterable, NamedTuple, Optional, Union
 
 import numpy as np
 
 from . import jit
+from .effects import EffectNames
 from .engine.engines import LOG, Program
 from .engine.event_loop import play_all
 from .jit.build import READY
 from .response.contact_set import clear_set
 from .result import summary
 from .scene.course_record import Course
+from .scene.presets import Preset
 from .state.ball import ENDED
 from .trajectory.shot_record import begin_shot, copy_result, fail, NOT_FINITE
 from .world import World
 
 PART = 5000  # shots between two updates of the progress
-# plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute
+# Plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute.
 FEW_SHOTS, MANY_SHOTS = 20, 200
 SHORT_WAIT = 5.0  # s: loading is over by then
 ANY_SHOT = np.array([[1.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
+
+# Gives back the parts of a whole, of which there are ``total``, and shows how far they are.
+Progress = Callable[..., Iterable[Any]]
 
 
 class Batch(NamedTuple):
@@ -41,12 +46,12 @@ class Batch(NamedTuple):
 
     course: Course
     gusts: np.ndarray
-    effects: object
-    accuracy: object
+    effects: EffectNames
+    accuracy: Union[str, Preset]
     engine: str
 
 
-def batch_engine(batch, shots):
+def batch_engine(batch: Batch, shots: int) -> str:
     """Engine that pays for so many `shots`; the compiled one has been loaded then."""
     if shots < FEW_SHOTS:
         return 'python'
@@ -65,7 +70,7 @@ def batch_engine(batch, shots):
     return 'compiled'
 
 
-def world_of(batch):
+def world_of(batch: Batch) -> World:
     """`World` of a batch. The strongest gust decides whether wind is simulated."""
     wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
     return World(
@@ -73,7 +78,7 @@ def world_of(batch):
     )
 
 
-def played(batch, strikes, progress=None):
+def played(batch: Batch, strikes: np.ndarray, progress: Optional[Progress] = None) -> np.ndarray:
     """Results of the `strikes` of a batch.
 
     Effects stay off, so no dormant record is compiled in.
@@ -89,8 +94,10 @@ def played(batch, strikes, progress=None):
     return summary(np.concatenate(found), batch.course.hole, world._labels.materials)
 
 
-def ends(play, scene, strikes):
-    """Ends of `strikes`, an `ENDED` array.
+def ends(
+    play: Callable[..., np.ndarray], scene: tuple[Any, ...], strikes: np.ndarray
+) -> np.ndarray:
+    """Play `strikes` to their ends, an `ENDED` array.
 
     A shot for which plain Python raises an arithmetic error fails.
     """
@@ -110,8 +117,8 @@ def ends(play, scene, strikes):
     return end
 
 
-def progress_bar(parts, total):
-    """Iterable of `parts` with a progress bar on a terminal, from two seconds on, if tqdm is installed."""
+def progress_bar(parts: Iterable[np.ndarray], total: int) -> Iterable[np.ndarray]:
+    """Wrap `parts` in a progress bar, on a terminal, from two seconds on, if tqdm is installed."""
     try:
         from tqdm import tqdm
     except ImportError:

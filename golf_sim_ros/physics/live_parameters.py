@@ -19,12 +19,12 @@ them all.
 """
 
 from math import isfinite
-from typing import Callable, NamedTuple
+from typing import Any, Callable, Iterable, NamedTuple
 
 MOST_WIND = 100.0  # m/s
 
 
-def checked_wind(wind):
+def checked_wind(wind: Iterable[float]) -> tuple[float, ...]:
     """Tuple of three floats of `wind`; ValueError where it is not finite or too strong."""
     wind = tuple(map(float, wind))
     if len(wind) != 3 or not all(map(isfinite, wind)):
@@ -35,19 +35,19 @@ def checked_wind(wind):
 
 
 class Live(NamedTuple):
-    """A live parameter: what makes a tuple of floats of a value, or raises ValueError.
+    """A live parameter: its default, and a check of a value for it.
 
-    And its default.
+    The check makes a tuple of floats of the value, or raises ValueError.
     """
 
-    check: Callable
-    default: tuple
+    check: Callable[[Any], tuple[float, ...]]
+    default: tuple[float, ...]
 
 
 LIVE = {'wind': Live(checked_wind, (0.0, 0.0, 0.0))}
 
 
-def checked_live(effect, value):
+def checked_live(effect: str, value: Any) -> tuple[float, ...]:
     """Tuple of floats of a `value` for that `effect`.
 
     ValueError where there is none to set, or not this.

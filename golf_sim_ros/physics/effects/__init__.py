@@ -35,6 +35,8 @@ from ..jit import kernel, literal_unroll
 from ..kernel_types import CourseRecord, EffectRecord, Effects, Vector
 from ..mechanics.vector import add, length, sub, ZERO
 
+EffectNames = Union[str, Iterable[str]]  # what is asked for: 'auto', or names
+
 
 class Scene(NamedTuple):
     """Scene that effects are chosen for.
@@ -107,7 +109,7 @@ def register_effect(
     EFFECTS[name] = Effect(record, idle, doc, dormant, tuple(instead_of))
 
 
-def choose(names: Union[str, Iterable[str]], scene: Scene) -> Chosen:
+def choose(names: EffectNames, scene: Scene) -> Chosen:
     """Effects that `scene` gets, and the reasons why it does without the others.
 
     Parameters
