@@ -15,7 +15,7 @@
 """Placement: where balls are teed, put down and dropped, and where they can't be."""
 
 from math import atan2, cos, hypot, inf, isfinite, pi, sin
-from typing import Callable, Iterator, NamedTuple, Optional, Sequence
+from typing import Callable, Iterable, Iterator, NamedTuple, Optional, Sequence
 
 import numpy as np
 
@@ -55,7 +55,7 @@ class Site(NamedTuple):
 
 
 def checked_start(
-    position: Sequence[float], velocity: Optional[Sequence[float]], spin: Optional[Sequence[float]]
+    position: Iterable[float], velocity: Optional[Iterable[float]], spin: Optional[Iterable[float]]
 ) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
     """Tuples of floats, each None as zeros.
 
@@ -145,7 +145,7 @@ def lowered(
     """
     x, y = place
     ground, radius = model.land.ground, model.land.ball.radius
-    for room in (3 * radius, 30 * radius, 300 * radius):  # higher up over a steep plane
+    for room in (3 * radius, 30 * radius, 300 * radius):  # a steep plane is touched higher up
         top = max(surfaces.look_down(ground, x, y)[0], ground.highest) + room
         touches, inside, _ = put_down(
             model, ball, (x, y, top), min(top - ground.lowest + room, FALL)

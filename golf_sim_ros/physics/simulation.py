@@ -28,7 +28,7 @@ from .geometry import surfaces
 from .live_parameters import checked_wind
 from .mechanics.vector import ZERO
 from .reporting import Happening
-from .result import objection, Result, suspects
+from .result import Collision, objection, Result, suspects
 from .scene import kernel_model
 from .scene.course_record import Course
 from .scene.presets import Preset
@@ -43,7 +43,7 @@ class Play(NamedTuple):
     """
 
     result: Result
-    collisions: tuple[Happening, ...]
+    collisions: tuple[Collision, ...]
     times: np.ndarray
     positions: np.ndarray
     velocities: np.ndarray
@@ -99,7 +99,7 @@ def simulate(
     end = next(event for event in events if isinstance(event, Result))
     rows[-1] = (end.time, end.position, ZERO, world[name].spin)
     times, positions, velocities, spins = map(np.array, zip(*rows))
-    collisions = tuple(event for event in events if event is not end)
+    collisions = tuple(event for event in events if isinstance(event, Collision))
     return Play(end, collisions, times, positions, velocities, spins)
 
 

@@ -240,9 +240,9 @@ class World:
     def place(
         self,
         name: str,
-        position: Sequence[float],
-        velocity: Optional[Sequence[float]] = None,
-        spin: Optional[Sequence[float]] = None,
+        position: Iterable[float],
+        velocity: Optional[Iterable[float]] = None,
+        spin: Optional[Iterable[float]] = None,
     ) -> None:
         """Put a ball down: at (x, y) on the ground there, or exactly at (x, y, z).
 
@@ -305,7 +305,7 @@ class World:
         placement.drop(self._site, self._balls, number, self._pegs[number], now)
         self._end_segments(self._is_moving & (self._balls['time_stepping'] == 0), now)
 
-    def strike(self, name: str, velocity: Sequence[float], spin: Sequence[float] = ZERO) -> None:
+    def strike(self, name: str, velocity: Iterable[float], spin: Iterable[float] = ZERO) -> None:
         """Strike a resting ball: launch `velocity` [m/s] and `spin` [rad/s].
 
         Raises
