@@ -44,8 +44,8 @@ SHORT_BOX = 4.0  # radii: a stretch with a box no longer than this is not worth 
 def advancement_bound(gap: float, rate: float, bend: float) -> float:
     """Safe time [s] within which a `gap` of that `rate` can't close.
 
-    The rate falls by at most `bend` a second. The time is the positive root of gap + rate s - bend
-    s^2 / 2, in the form without cancellation.
+    The rate falls by at most `bend` a second. The time is the positive root of
+    gap + rate s - bend s^2 / 2, in the form without cancellation.
     """
     gap = max(gap, 0.0)
     if bend <= 0.0:

@@ -156,9 +156,9 @@ def penetration_exit_time(
     """Safe time [s] for which a ball in a cut of `part` has not left it yet.
 
     Or a ball behind a one-sided sheet. There the gap is negative, and no impact. Along a straight
-    line a convex gap stays below its chord, and the path strays from that line by at most A s^2 /
-    2. A cut reaches up to its outline, however near to the plane the ball moves. `when` and
-    `facing` are as in `touch`.
+    line a convex gap stays below its chord, and the path strays from that line by at most
+    A s^2 / 2. A cut reaches up to its outline, however near to the plane the ball moves. `when`
+    and `facing` are as in `touch`.
     """
     time, until = when
     gap, _, bend, hollow = facing
@@ -187,7 +187,7 @@ def touch(
 ) -> tuple[float, int]:
     """Tell what a gap to `part` of zero comes to: OPEN, CLEAR until a later time, or HIT.
 
-    Before that the time: the later one, or now. `when`: the time of it, and that up to which it is
+    The time comes first, the later one or now. `when`: the time of it, and that up to which it is
     asked; `facing`: the gap, its rate, by how much that falls a second, and the curvature of
     hollows.
     """

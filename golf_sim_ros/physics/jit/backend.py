@@ -14,6 +14,8 @@
 
 """Compilation of kernels with numba, on demand: the only way from `ROLES` to machine code."""
 
+from __future__ import annotations
+
 import os
 from typing import Any, Callable
 

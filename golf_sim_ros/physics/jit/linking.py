@@ -14,7 +14,7 @@
 
 """Linking of inner kernels as unoptimised drafts, which are optimised once, in the entry.
 
-By internals of numba. It would optimise at every level of calls, with all that is called below.
+By internals of numba, which would optimise at every level of calls, with all that is called below.
 The internals used here are known in the versions of `KNOWN`; with others kernels are compiled the
 ordinary way.
 """

@@ -192,11 +192,11 @@ def effective_restitution(
     1 to follow them one by one.
 
     Restitution changes from e0 with the approach, by its own law and as soft turf throws a fast
-    ball up. To first order the sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 -
-    e0^2)): that of a constant restitution, the one at an approach of v / (1 + e0). Where that is
-    much more than e0, first order does not do, and bounces are followed one by one. A turf law
-    that does not fade with the approach has no such sum at all: of the very last bounces it is
-    left out.
+    ball up. To first order the sum of v, e v, ... is
+    v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): that of a constant restitution, the one at an
+    approach of v / (1 + e0). Where that is much more than e0, first order does not do, and bounces
+    are followed one by one. A turf law that does not fade with the approach has no such sum at
+    all: of the very last bounces it is left out.
     """
     if rebound <= LEAST_SPEED:
         return 0.0
