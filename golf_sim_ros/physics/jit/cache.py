@@ -26,8 +26,6 @@ import stat
 import tempfile
 from typing import NamedTuple, NoReturn, Optional
 
-from . import Unavailable
-
 NAME = 'golf_sim_ros'
 CACHE_VARIABLE = 'GOLF_SIM_ROS_CACHE'
 # Elsewhere than on POSIX these bits mean nothing.
@@ -94,10 +92,10 @@ def folder() -> Cache:
 
 
 def trusted_path() -> Path:
-    """Path of `folder`; `Unavailable`, with the reason, where there is none."""
+    """Path of `folder`; RuntimeError, with the reason, where there is none."""
     found = folder()
     if found.path is None:
-        raise Unavailable(found.reason)
+        raise RuntimeError(found.reason)
     return found.path
 
 
