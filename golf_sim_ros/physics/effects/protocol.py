@@ -132,7 +132,7 @@ class Hit(NamedTuple):
 
 @generic
 def rebound(effect, hit, velocity):
-    """Velocity [m/s] of a ball after a `hit` that without the `effect` would leave at `velocity`."""
+    """Velocity [m/s] after a `hit` of a ball that without `effect` would leave at `velocity`."""
     return velocity
 
 

@@ -12,14 +12,14 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Soft turf: the ball pushes up a bank, so the contact normal tilts towards where it came from.
+r"""Soft turf: the ball pushes up a bank, so the contact normal tilts towards where it came from.
 
 ::
 
-        v \\      ^ n'            n   normal of the ground
-           \\    /  ^ n           n'  normal that the ball feels
-            \\  / t |             t   tilt
-        ________\\|_|________
+        v \      ^ n'            n   normal of the ground
+           \    /  ^ n           n'  normal that the ball feels
+            \  / t |             t   tilt
+        ________\|_|________
 
 Measured is one point, by Haake: at 18.6 m/s and 44.4 degrees from the vertical the tilt is 15.4
 degrees (Penner, Can. J. Phys. 80 (2002) 931-940). How it changes from there is assumed. Penner's
@@ -34,9 +34,9 @@ is `penner_2002`). Here the tilt
 
 And the bank is of turf, which yields. It brakes a ball, and can do no more:
 
-- It does not throw the ball up. Of the normal speed turf gives back at most (1 + 2 e) / 3 (estimate),
-  with its restitution e at that approach, however fast the ball comes along. Haake's point gives
-  0.29 back, and the limit is 0.45 there.
+- It does not throw the ball up. Turf gives back at most (1 + 2 e) / 3 of the normal speed
+  (estimate), with its restitution e at that approach, however fast the ball comes along. Haake's
+  point gives 0.29 back, and the limit is 0.45 there.
 - It does not throw the ball back. It pushes only as long as the ball moves into it; once friction
   on backspin and the bank have stopped the ball within the impact, only friction drives it back.
 """

@@ -73,13 +73,10 @@ def impulse(bond, velocity, spin, normal, radius):
 
 @kernel
 def after_impulse(velocity, spin, push, normal, record):
-    """Velocity and spin of a ball after the impulse `push` [N s] at the contact point of `normal`."""
+    """Velocity and spin after the impulse `push` [N s] at the contact point of `normal`."""
     turn = scale(-record.radius, cross(normal, push))
     inertia = record.inertia * record.mass * record.radius * record.radius
-    return (
-        add_scaled(velocity, 1.0 / record.mass, push),
-        add_scaled(spin, 1.0 / inertia, turn),
-    )
+    return (add_scaled(velocity, 1.0 / record.mass, push), add_scaled(spin, 1.0 / inertia, turn))
 
 
 @kernel

@@ -120,7 +120,7 @@ def supporting_surface(land, ball, place):
 
 @kernel
 def turn_of_normal(land, ball, place, velocity):
-    """Rate of change of the normal of the surface that supports the ball, as it moves at `velocity`."""
+    """Rate of change of the normal under the ball, as it moves at `velocity`."""
     if ball['on_flat'] == 1:
         return ZERO
     return surfaces.turn(land.ground, ball['support'], place, velocity)
@@ -128,7 +128,7 @@ def turn_of_normal(land, ball, place, velocity):
 
 @shared
 def contact_rates(land, ball, place, velocity, spin):
-    """Acceleration, angular acceleration, press, and friction needed to roll, of a ball in contact.
+    """Acceleration, angular acceleration, press, and friction needed to roll, in contact.
 
     A press below 0 means that the ground would have to pull.
 
