@@ -141,7 +141,7 @@ class Hit(NamedTuple):
 
 @generic
 def rebound(effect: EffectRecord, hit: Hit, velocity: Vector) -> Vector:
-    """Velocity [m/s] after a `hit` of a ball that would leave at `velocity` without the `effect`."""
+    """Velocity [m/s] after a `hit` of a ball that without `effect` would leave at `velocity`."""
     return velocity
 
 
