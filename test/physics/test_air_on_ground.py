@@ -28,13 +28,14 @@ from scipy.integrate import solve_ivp
 FOOT = 0.3048
 G = 9.80665
 RADIUS = 0.021335
+EVEN = UniformProfile()
 STIMP = 1.83  # m/s with which a stimpmeter releases a ball: USGA
 
 
-def green(feet, pivot=0.0, profile=UniformProfile(), **more):
+def green(feet, profile=EVEN, **more):
     """Level green of a stimp reading in feet."""
     resistance = STIMP**2 / (2.0 * G * feet * FOOT)
-    grass = Material('green', Restitution(0.3), 0.0, 0.4, 0.45, resistance, pivot)
+    grass = Material('green', Restitution(0.3), 0.0, 0.4, 0.45, resistance, 0.0)
     return Course((Plane(material=grass),), wind_profile=profile, **more)
 
 
