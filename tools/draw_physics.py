@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Draws docs/physics.png and prints the tables of docs/physics.md: the laws against what was measured.
+"""Draw docs/physics.png, the laws against what was measured, and print docs/physics.md's table.
 
 .venv/bin/python tools/draw_physics.py
 """
@@ -37,12 +37,13 @@ from golf_sim_ros.physics import (
 from golf_sim_ros.physics.effects.drag import DragLaw
 from golf_sim_ros.physics.effects.magnus import LiftLaw
 import matplotlib
+from matplotlib import pyplot as plt
 import numpy as np
 
 matplotlib.use('Agg')
-from matplotlib import pyplot as plt  # noqa: E402
 
 DOCS = Path(__file__).parents[1] / 'docs'
+PGA = ('trackman_pga_2010s.csv', 'trackman_pga_2023.csv')
 LAWS = {
     'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
     'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay'),
@@ -107,7 +108,8 @@ def print_runs():
     for label, material, *shot in RUNS:
         (end,) = simulate_many(ground(material), *strikes(*shot))
         print(
-            f'| {label} | {end["carry"] / YARD:.1f} | {(end["position"][0] - end["carry"]) / YARD:.1f} |'
+            f'| {label} | {end["carry"] / YARD:.1f} | '
+            f'{(end["position"][0] - end["carry"]) / YARD:.1f} |'
         )
 
 
@@ -175,7 +177,7 @@ def draw_bounce(axes):
 
 
 def draw_putt(axes):
-    """A putt of 10 ft across a slope of 2 %, and the closed form of its break for a small slope."""
+    """Draw a putt of 10 ft across a slope of 2 %, and the closed form of its break."""
     tilt, way, left = 0.02, 3.048, 0.45
     course = ground('green', (np.sin(np.arctan(tilt)), 0, np.cos(np.arctan(tilt))))
     brake = shipped()[0]['green']['rolling_resistance'] * 9.80665
@@ -195,8 +197,8 @@ def draw_putt(axes):
 
 
 def draw_errors(axes):
-    """The carry's error, club by club, of both of the tour's tables."""
-    for name in TABLES[:2]:
+    """Draw the carry's error, club by club, of both of the tour's tables."""
+    for name in PGA:
         carry = simulate_many(ground('fairway'), *of_table(name))['carry'] / YARD
         axes.plot(
             carry - column(rows(name), 'carry_yd'), 'o-', ms=4, label=name[13:-4].replace('_', ' ')
@@ -210,7 +212,7 @@ def draw_errors(axes):
 
 
 def fastest_holed(aside, bounciness):
-    """Lowest speed [m/s] at the rim that escapes a hole in a level green, `aside` [m] off its centre."""
+    """Lowest speed [m/s] at the rim that escapes a level hole, `aside` [m] off its centre."""
     green = Material(name='green', **shipped()[0]['green'])._replace(
         restitution=Restitution(bounciness)
     )
