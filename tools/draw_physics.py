@@ -43,6 +43,7 @@ import numpy as np
 matplotlib.use('Agg')
 
 DOCS = Path(__file__).parents[1] / 'docs'
+PGA = ('trackman_pga_2010s.csv', 'trackman_pga_2023.csv')
 LAWS = {
     'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
     'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay'),

@@ -132,6 +132,16 @@ ground:
     'line, field, value',
     [
         ('air: {altitude: 1600}', 'air', standard_atmosphere(1600)),
+        (
+            'air: {altitude: 1600, temperature: 303}',
+            'air',
+            Air(303.0, standard_atmosphere(1600).pressure, 0.0),
+        ),
+        (
+            'air: {altitude: -100, temperature: 310, relative_humidity: 1}',
+            'air',
+            Air(310.0, standard_atmosphere(-100).pressure, 1.0),
+        ),
         ('wind_profile: {law: uniform}', 'wind_profile', UniformProfile()),
         ('wind_profile: {law: log}', 'wind_profile', LogProfile()),
         ('wind_profile: {law: log, roughness: 1e-3}', 'wind_profile', LogProfile(0.001)),
@@ -325,6 +335,14 @@ obstacles:
         ),
         ('air: {relative_humidity: 50}', 'air.relative_humidity 50 must be a number from 0 to 1'),
         ('air: {altitude: 1600, pressure: 1}', "air: key 'pressure' is unknown; known: altitude"),
+        (
+            'air: {altitude: 1600, temperature: 30}',
+            'air.temperature 30 must be a number from 150 to 400',
+        ),
+        (
+            'air: {altitude: 11000, temperature: 400, relative_humidity: 1}',
+            'must be more than that of the vapour',
+        ),
         ('air: {altitude: 20000}', 'air.altitude 20000 must be a number from -1000 to 11000'),
         (
             'air: {temprature: 280}',

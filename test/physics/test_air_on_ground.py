@@ -40,7 +40,7 @@ def green(feet, profile=EVEN, **more):
 
 
 def putt(course, speed, wind, **how):
-    """Result of a putt along x that rolls from the start."""
+    """Play a putt along x that rolls from the start; its result."""
     spin = (0.0, speed / RADIUS, 0.0)
     return simulate(course, Shot((speed, 0.0, 0.0), spin), wind=wind, **how).result
 
