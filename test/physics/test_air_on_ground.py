@@ -90,9 +90,14 @@ def test_a_putt_across_a_uniform_wind_is_moved_as_pelz_measured():
 
 
 @pytest.mark.parametrize('speed', [0.4, 1.8, 4.0])
-@pytest.mark.parametrize('heading', [0.0, 0.25, 0.5, 1.0])
-@pytest.mark.parametrize('blows', [2.0, 4.5])
-def test_a_rolling_ball_follows_its_equation_of_motion(speed, heading, blows):
+@pytest.mark.parametrize(
+    'blows, heading',
+    [
+        *((blows, heading) for blows in (2.0, 4.5) for heading in (0.0, 0.25, 0.5, 1.0)),
+        (8.94, 0.5),
+    ],
+)
+def test_a_rolling_ball_follows_its_equation_of_motion(speed, blows, heading):
     course = green(9.5)
     wind = (blows * np.cos(heading * pi), blows * np.sin(heading * pi), 0.0)
     result = putt(course, speed, wind)
@@ -161,7 +166,7 @@ def test_with_the_wind_a_putt_is_longer_and_against_it_shorter():
     ends = [
         putt(course, 1.5, (blows, 0.0, 0.0)).position[0] for blows in (-4.0, -2.0, 0.0, 2.0, 4.0)
     ]
-    assert all(np.diff(ends) > 0.1)
+    assert all(np.diff(ends) > 0.03)
 
 
 def test_still_air_costs_nothing_and_changes_no_bit():
