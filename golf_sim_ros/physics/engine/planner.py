@@ -36,6 +36,7 @@ from ..contact.contact_state import (
 )
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment, resists_evenly
+from ..contact.straight_rolling import rolling_segment, rolls_straight
 from ..effects import flight_rates, gravity_at
 from ..geometry import surfaces
 from ..geometry.water_surface import water_at
@@ -232,6 +233,8 @@ def contact_segment(model, ball, now):
     if goes_on:
         if resists_evenly(land, ball, now):  # in closed form
             plane_segment(land, ball, now)
+        elif rolls_straight(land, ball, now):
+            rolling_segment(land, ball)
         else:
             curved_segment(model, ball, now)
         return ON_FLAT
