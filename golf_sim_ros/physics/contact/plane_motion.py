@@ -18,9 +18,9 @@ With k the moment of inertia over m r^2 and N the press, slip u obeys
 u' = g_t - (1 + 1/k) mu N u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of
 sliding is v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
 
-Resistance that grows with speed has no closed form, but along a straight line. Where little of it
-is left it is taken as constant; before that, the equations are integrated: see
-`resists_evenly`.
+Resistance that grows with speed has a closed form on level ground only (straight_rolling.py).
+Where little of it is left it is taken as constant; before that, the equations are integrated
+(curved_motion.py): see `resists_evenly`.
 """
 
 from math import inf
@@ -160,20 +160,23 @@ def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
     end = glide_end(motion, horizon)
     # The closed form is exact, its quintic interpolant is not: the segment is halved until it errs
     # by less than a path may.
-    x = ball['position']
-    rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
     while True:
         fit_glide(land, ball, motion, coast, end, (turning, unwinding))
         middle = coulomb_deceleration.half_way(motion, end)
-        allowed = max(
-            land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding
-        )
-        if not glide_error(ball, motion, coast, middle) > allowed:
+        if not glide_error(ball, motion, coast, middle) > allowed_error(land, ball):
             break
         end = middle
     ball['ending'] = STEP_END
     if end == inf:
         ball['ending'] = SLIP_STOPS if ball['phase'] == SLIDE else BALL_STOPS
+
+
+@kernel
+def allowed_error(land: Land, ball: BallRecord) -> float:
+    """Distance [m] by which the segment's curve may be off its closed form."""
+    x = ball['position']
+    rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
+    return max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding)
 
 
 @kernel

@@ -37,6 +37,7 @@ from ..contact.contact_state import (
 )
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment, resists_evenly
+from ..contact.straight_rolling import rolling_segment, rolls_straight
 from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..geometry.water_surface import water_at
@@ -232,8 +233,12 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     goes_on = flat_ground_goes_on(land, ball)
     ball['on_flat'] = 1 if goes_on else 0
     if goes_on:
-        if resists_evenly(land, ball, now) and is_in_still_air(land, ball, now):  # in closed form
+        if not is_in_still_air(land, ball, now):
+            curved_segment(model, ball, now)
+        elif resists_evenly(land, ball, now):  # in closed form
             plane_segment(land, ball, now)
+        elif rolls_straight(land, ball, now):
+            rolling_segment(land, ball)
         else:
             curved_segment(model, ball, now)
         return ON_FLAT
