@@ -191,10 +191,10 @@ def wake_leaning(site: Site, balls: np.ndarray, number: int, now: float) -> None
     )
     leaning[number] = False
     for other in np.flatnonzero(leaning):
-        wake(balls[other], now)
+        set_off(balls[other], now)
 
 
-def wake(ball: BallRecord, now: float) -> None:
+def set_off(ball: BallRecord, now: float) -> None:
     """Let a `ball` record at rest set off `now`, if it can."""
     ball['end'], ball['ending'] = now, LAUNCH
     ball['moved_by_ball'], ball['struck_at'] = 1, ball['position']

@@ -486,7 +486,7 @@ class World:
         resting &= (self._balls['sleeps_on_ball'] == 0) & (self._balls['failed'] == 0)
         for number in np.flatnonzero(resting):
             if three(self._balls[number]['position']) != self._pegs.get(int(number)):
-                placement.wake(self._balls[number], self._now)
+                placement.set_off(self._balls[number], self._now)
 
     @property
     def engine(self) -> str:

@@ -53,7 +53,7 @@ TILT = 15.4 * pi / 180
 SPEED = 18.6  # m/s
 ANGLE = 44.4 * pi / 180
 MOST = 25.0 * pi / 180
-FADE = 1.5  # m/s
+TURF_FADE = 1.5  # m/s
 
 
 class Turf(NamedTuple):
@@ -64,7 +64,7 @@ class Turf(NamedTuple):
 
     rate: float = TILT / (SPEED * sin(ANGLE) ** 4)
     most: float = MOST
-    fade: float = FADE
+    fade: float = TURF_FADE
 
 
 @protocol.contact_normal.register(Turf)
@@ -94,7 +94,7 @@ def tilted(normal: Vector, across: Vector, tilt: float) -> Vector:
     return add(scale(cos(tilt), normal), scale(-sin(tilt) / length(across), across))
 
 
-@protocol.rebound.register(Turf)
+@protocol.rebound_velocity.register(Turf)
 def _rebound(effect: Turf, hit: protocol.Hit, velocity: Vector) -> Vector:
     if hit.softness * effect.rate == 0.0:
         return velocity

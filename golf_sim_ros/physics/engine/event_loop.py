@@ -212,7 +212,7 @@ def end_if_over(model: ModelRecord, ball: BallRecord, number: int, now: float, l
 def plan_or_fail(model: ModelRecord, ball: BallRecord, number: int, now: float, log: Log) -> None:
     """Plan the ball's next segment, or fail its shot if it can't go on.
 
-    Writes segment, integrator, contact, phase, motion, shot; logs a failure.
+    Writes segment, integrator, contact, on_flat, phase, motion, shot; logs a failure.
     """
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):
