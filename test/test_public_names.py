@@ -30,6 +30,7 @@ COMMANDS = {
     'resimulate',
     'plot_play',
     'accuracy_study',
+    'compare_shots',
     'compile_physics',
 }
 SIM_PARAMETERS = {
