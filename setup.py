@@ -29,6 +29,7 @@ EXECUTABLES = {
     'resimulate': 'golf_sim_ros.cli.resimulate:main',
     'plot_play': 'golf_sim_ros.cli.plot_play:main',
     'accuracy_study': 'golf_sim_ros.cli.accuracy_study:main',
+    'compare_shots': 'golf_sim_ros.cli.compare_shots:main',
     'compile_physics': 'golf_sim_ros.cli.compile_physics:main',
 }
 

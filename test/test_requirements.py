@@ -185,6 +185,7 @@ def test_the_manifest_asks_for_nothing_that_apt_has_not(kind):
         'cli.resimulate',
         'cli.plot_play',
         'cli.accuracy_study',
+        'cli.compare_shots',
         'bag',
         'course',
         'physics',
