@@ -52,6 +52,7 @@ LAWS = {
     'linear': ('gravity', 'linear_drag', 'magnus', 'spin_decay'),
 }
 RUNS = (
+    ('driver, firm fairway', 'firm_fairway', 167, 10.9, 2686),
     ('driver, fairway', 'fairway', 167, 10.9, 2686),
     ('7 iron, fairway', 'fairway', 120, 16.3, 7097),
     ('wedge, firm green', 'firm_green', 102, 24.2, 9304),

@@ -237,7 +237,7 @@ def effective_normal(effects, normal, velocity, softness):
 def velocity_after(effects, hit, velocity):
     """Velocity of a ball after a `hit` that without the effects would leave at `velocity`."""
     for effect in literal_unroll(effects):
-        velocity = protocol.rebound(effect, hit, velocity)
+        velocity = protocol.departure(effect, hit, velocity)
     return velocity
 
 

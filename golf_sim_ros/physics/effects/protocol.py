@@ -131,7 +131,7 @@ class Hit(NamedTuple):
 
 
 @generic
-def rebound(effect, hit, velocity):
+def departure(effect, hit, velocity):
     """Velocity [m/s] after a `hit` of a ball that without `effect` would leave at `velocity`."""
     return velocity
 

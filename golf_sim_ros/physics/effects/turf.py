@@ -52,7 +52,7 @@ TILT = 15.4 * pi / 180
 SPEED = 18.6  # m/s
 ANGLE = 44.4 * pi / 180
 MOST = 25.0 * pi / 180
-FADE = 1.5  # m/s
+TURF_FADE = 1.5  # m/s
 
 
 class Turf(NamedTuple):
@@ -63,7 +63,7 @@ class Turf(NamedTuple):
 
     rate: float = TILT / (SPEED * sin(ANGLE) ** 4)
     most: float = MOST
-    fade: float = FADE
+    fade: float = TURF_FADE
 
 
 @protocol.contact_normal.register(Turf)
@@ -93,8 +93,8 @@ def tilted(normal, across, tilt):
     return add(scale(cos(tilt), normal), scale(-sin(tilt) / length(across), across))
 
 
-@protocol.rebound.register(Turf)
-def _rebound(effect, hit, velocity):
+@protocol.departure.register(Turf)
+def _departure(effect, hit, velocity):
     if hit.softness * effect.rate == 0.0:
         return velocity
     ahead = unit(tangential(hit.velocity, hit.normal), ZERO)

@@ -205,7 +205,7 @@ def end_if_over(model, ball, number, now, log):
 def plan_or_fail(model, ball, number, now, log):
     """Plan the ball's next segment, or fail its shot if it can't go on.
 
-    Writes segment, integrator, contact, phase, motion, shot; logs a failure.
+    Writes segment, integrator, on_flat, contact, phase, motion, shot; logs a failure.
     """
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):

@@ -88,8 +88,8 @@ SINKING_STEP = 0.02
 def plan_next_segment(model, ball, now):
     """Plan the ball's next segment from its state at `now`, up to its first event.
 
-    Writes segment, integrator, segments_spent, zero_length_segments, contact, phase, motion. The
-    last three change only where contact does.
+    Writes segment, integrator, segments_spent, zero_length_segments, on_flat, contact, phase,
+    motion. The last four change only where contact does.
     """
     ball['begin'] = now
     if not moves(ball['phase']):
