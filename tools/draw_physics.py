@@ -45,6 +45,7 @@ matplotlib.use('Agg')
 DOCS = Path(__file__).parents[1] / 'docs'
 PGA = ('trackman_pga_2010s.csv', 'trackman_pga_2023.csv')
 RUNS = (
+    ('driver, firm fairway', 'firm_fairway', 167, 10.9, 2686),
     ('driver, fairway', 'fairway', 167, 10.9, 2686),
     ('7 iron, fairway', 'fairway', 120, 16.3, 7097),
     ('wedge, firm green', 'firm_green', 102, 24.2, 9304),

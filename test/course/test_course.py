@@ -37,11 +37,12 @@ import yaml
 PLAIN = 'format: 1\nground: [{shape: plane, material: rough}]\n'
 PATCH = 'center: [0, 0, 0], length: 4, width: 2, material: rough'
 GROUNDS = (
-    'artificial_turf, fairway, firm_green, first_cut, green, hardpan, rough, sand, soft_green, tee'
+    'artificial_turf, fairway, firm_fairway, firm_green, first_cut, green, hardpan, rough, sand, '
+    'soft_fairway, soft_green, tee'
 )
 KNOWN = (
-    'artificial_turf, cup, fairway, firm_green, first_cut, flagstick, green, hardpan, leaves, '
-    'rough, sand, soft_green, stone, tee, wood'
+    'artificial_turf, cup, fairway, firm_fairway, firm_green, first_cut, flagstick, green, '
+    'hardpan, leaves, rough, sand, soft_fairway, soft_green, stone, tee, wood'
 )
 
 

@@ -80,7 +80,7 @@ def rolling_segment(land: Land, ball: BallRecord) -> None:
     end = min(end, stop)
     while True:
         fit_straight(land, ball, braking, end, pivot)
-        _, way = rolled_after(ball, braking, 0.5 * end)
+        _, way = rolled_on(ball, braking, 0.5 * end)
         off = sub(sub(position(ball, 0.5 * end), load(ball['origin'])), way)
         if not length(off) > allowed_error(land, ball):
             break
@@ -89,7 +89,7 @@ def rolling_segment(land: Land, ball: BallRecord) -> None:
 
 
 @kernel
-def rolled_after(ball: BallRecord, braking: Braking, time: float) -> tuple[Vector, Vector]:
+def rolled_on(ball: BallRecord, braking: Braking, time: float) -> tuple[Vector, Vector]:
     """Velocity and displacement of the ball after `time`, which is not after its stop."""
     a, c = braking
     v = load(ball['velocity'])
@@ -110,7 +110,7 @@ def fit_straight(
     normal = load(ball['normal'])
     turning, losing = pivot
     v0 = load(ball['velocity'])
-    v1, way = rolled_after(ball, braking, time)
+    v1, way = rolled_on(ball, braking, time)
     ahead = unit(v0, ZERO)
     a0 = scale(-braking[0] - braking[1] * dot(v0, v0), ahead)
     a1 = scale(-braking[0] - braking[1] * dot(v1, v1), ahead)

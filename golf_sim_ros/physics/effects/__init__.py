@@ -292,7 +292,7 @@ def effective_normal(
 def velocity_after(effects: Effects, hit: protocol.Hit, velocity: Vector) -> Vector:
     """Velocity of a ball after a `hit` that without the effects would leave at `velocity`."""
     for effect in literal_unroll(effects):
-        velocity = protocol.rebound_velocity(effect, hit, velocity)
+        velocity = protocol.departure(effect, hit, velocity)
     return velocity
 
 

@@ -152,7 +152,7 @@ class Hit(NamedTuple):
 
 
 @generic
-def rebound_velocity(effect: EffectRecord, hit: Hit, velocity: Vector) -> Vector:
+def departure(effect: EffectRecord, hit: Hit, velocity: Vector) -> Vector:
     """Velocity [m/s] after a `hit` of a ball that without `effect` would leave at `velocity`."""
     return velocity
 

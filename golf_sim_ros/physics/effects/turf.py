@@ -94,8 +94,8 @@ def tilted(normal: Vector, across: Vector, tilt: float) -> Vector:
     return add(scale(cos(tilt), normal), scale(-sin(tilt) / length(across), across))
 
 
-@protocol.rebound_velocity.register(Turf)
-def _rebound(effect: Turf, hit: protocol.Hit, velocity: Vector) -> Vector:
+@protocol.departure.register(Turf)
+def _departure(effect: Turf, hit: protocol.Hit, velocity: Vector) -> Vector:
     if hit.softness * effect.rate == 0.0:
         return velocity
     ahead = unit(tangential(hit.velocity, hit.normal), ZERO)

@@ -35,6 +35,9 @@ from ..mechanics.vector import (
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
+STIFFEST_GROWTH = (
+    100.0  # 1/m: a ball loses half of its speed within 7 mm; more would only be stiff
+)
 
 
 @kernel
@@ -73,7 +76,8 @@ def rolling_deceleration(material: MaterialRecord, press: float, needed: float) 
 @kernel
 def growth_rate(material: MaterialRecord, press: float) -> float:
     """Growth of a rolling ball's deceleration with the square of its speed [1/m]."""
-    return material['rolling_resistance'] * material['resistance_growth'] * press
+    growth = material['rolling_resistance'] * material['resistance_growth'] * press
+    return min(growth, STIFFEST_GROWTH)
 
 
 @kernel
