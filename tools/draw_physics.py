@@ -173,7 +173,7 @@ def draw_putt(axes):
 
 def draw_errors(axes):
     """Carry's error, club by club, of both of the tour's tables."""
-    for name in TABLES[:2]:
+    for name in PGA:
         carry = simulate_many(ground('fairway'), *of_table(name))['carry'] / YARD
         axes.plot(
             carry - column(rows(name), 'carry_yd'), 'o-', ms=4, label=name[13:-4].replace('_', ' ')
