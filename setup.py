@@ -28,6 +28,8 @@ EXECUTABLES = {
     'record_play': 'golf_sim_ros.cli.record_play:main',
     'resimulate': 'golf_sim_ros.cli.resimulate:main',
     'plot_play': 'golf_sim_ros.cli.plot_play:main',
+    'view_play': 'golf_sim_ros.cli.view_play:main',
+    'play_hole': 'golf_sim_ros.cli.play_hole:main',
     'accuracy_study': 'golf_sim_ros.cli.accuracy_study:main',
     'compile_physics': 'golf_sim_ros.cli.compile_physics:main',
 }

@@ -27,9 +27,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 from visualization_msgs.msg import MarkerArray
 
-from .reachability import Reach, SILENT
-from ..nodes.conversions import fill
+from ..nodes.conversions import strike
 from ..nodes.older_rclpy import publisher_count
+from ..nodes.reachability import Reach, SILENT
 
 # A result repeats the strike rounded to 1e-4.
 ROUNDING = 0.6e-4
@@ -181,7 +181,7 @@ class Player(Node):
         self.results.clear()
         beat = self._listen_for_good(velocity, spin) if self.reach.is_offered() else None
         self.struck_at, self.first_position = time.monotonic(), None
-        self._shots.publish(twist(velocity, spin))
+        self._shots.publish(strike(velocity, spin))
         while not self._wait(lambda: self._own_result(velocity, spin), 0.5):
             if beat:
                 self._look_after(beat)
@@ -277,11 +277,3 @@ class Player(Node):
 
     def _take_markers(self, message):
         self.markers = message.markers
-
-
-def twist(velocity, spin):
-    """Message that strikes a ball with this velocity and spin."""
-    message = Twist()
-    fill(message.linear, velocity)
-    fill(message.angular, spin)
-    return message

@@ -14,7 +14,7 @@
 
 """Conversions between records of the physics and ROS messages."""
 
-from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
+from geometry_msgs.msg import PointStamped, PoseStamped, Twist, TwistStamped
 from rclpy.time import Time
 from std_msgs.msg import Header
 
@@ -50,6 +50,14 @@ def twist(head, ball):
     message = TwistStamped(header=head)
     fill(message.twist.linear, ball.velocity)
     fill(message.twist.angular, ball.spin)
+    return message
+
+
+def strike(velocity, spin):
+    """Twist that strikes a ball with this velocity and spin."""
+    message = Twist()
+    fill(message.linear, velocity)
+    fill(message.angular, spin)
     return message
 
 

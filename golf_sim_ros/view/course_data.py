@@ -133,6 +133,7 @@ def description(course: Course) -> dict:
     return {
         'name': course.name,
         'digest': course.digest,
+        'around': points(surroundings(course)),
         'radius': course.ball.radius,
         'materials': [
             {'name': material.name, 'color': [round(float(c), 3) for c in material.color]}

@@ -54,8 +54,8 @@ export default {
     hideHints() {
       this._page?.view.hideHints();
     },
-    hideGreen() {
-      this._page?.view.hideGreen();
+    hideLine() {
+      this._page?.view.hideLine();
     },
     choose(mode) {
       this._page?.hud.choose(mode);

@@ -96,7 +96,7 @@ export class Cameras {
   }
 
   above(ball, land, way) {
-    const d = this.heading, { x, y } = ball.place, length = Math.max(6, way), tall = 1.02 * length + 4;
+    const d = this.heading, { x, y } = ball.place, length = Math.max(6, way), tall = 1.4 * length + 5;
     const middle = new THREE.Vector3(x + 0.5 * way * d.x, y + 0.5 * way * d.y, ball.place.z);
     return { place: new THREE.Vector3(middle.x - 0.02 * d.x, middle.y - 0.02 * d.y, middle.z + tall), target: middle, up: d.clone() };
   }

@@ -17,7 +17,7 @@ import { THREE } from "nicegui-scene";
 import { SUN } from "./land.js";
 
 const RINGS = [4, 12, 30, 60, 110, 180, 280, 420, 620, 900, 1400, 2200, 3400]; // m beyond the grid
-const HILLS = 26; // m: how high they are at most
+const HILLS = 44; // m: how high they are at most
 
 // What every kind of grass has: soft patches, straw, grain close to the eye, woods far away.
 const GRASS = `
@@ -27,7 +27,7 @@ const GRASS = `
   float broad = texture2D(noise, at / 173.0).a + 0.6 * texture2D(noise, at.yx / 61.0 + 0.37).r - 0.8;
   float mid = texture2D(noise, at / 19.0).g + texture2D(noise, at.yx / 7.1).g - 1.0;
   float fine = texture2D(noise, at / 4.3).b + texture2D(noise, at.yx / 1.27).b - 1.0;
-  diffuseColor.rgb *= 1.0 + wild * (0.34 * broad + 0.30 * mid + 0.26 * fine);
+  diffuseColor.rgb *= 1.0 + wild * (0.42 * broad + 0.42 * mid + 0.40 * fine);
   diffuseColor.rgb = mix(diffuseColor.rgb, diffuseColor.rgb * vec3(1.34, 1.10, 0.72),
     wild * 0.75 * clamp(broad + 0.55 * mid, 0.0, 1.0));
   float near = clamp(1.0 - way / 26.0, 0.0, 1.0);
@@ -35,21 +35,30 @@ const GRASS = `
   diffuseColor.rgb *= 1.0 + near * blades * (0.30 + 0.35 * wild);
 `;
 
+// Edges of mown grass and sand are no straight lines: the picture is read a hand's breadth aside.
+const WARPED_MAP = `
+  #ifdef USE_MAP
+    vec2 aside = texture2D(noise, vGround.xy / 3.1).gb + texture2D(noise, vGround.yx / 0.83).bg - 1.0;
+    vec4 sampledDiffuseColor = texture2D(map, vMapUv + aside * warp);
+    diffuseColor *= sampledDiffuseColor;
+  #endif
+`;
+
 const WOODS = `
   float woods = smoothstep(0.46, 0.58, texture2D(noise, at / 900.0).a + 0.13 * (texture2D(noise, at / 90.0).g - 0.5))
     * smoothstep(150.0, 420.0, vFar);
-  diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.022, 0.052, 0.020) * (0.8 + 0.8 * texture2D(noise, at / 37.0).b), 0.9 * woods);
+  diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.045, 0.085, 0.036) * (0.8 + 0.8 * texture2D(noise, at / 37.0).b), 0.9 * woods);
 `;
 
-function grassy(material, noise, wild, far = false) {
+function grassy(material, noise, wild, { far = false, warp = [0, 0] } = {}) {
   material.onBeforeCompile = (shader) => {
-    shader.uniforms.noise = { value: noise };
+    Object.assign(shader.uniforms, { noise: { value: noise }, warp: { value: new THREE.Vector2(...warp) } });
     const varyings = `varying vec3 vGround;${far ? " varying float vFar;" : ""}\n`;
     shader.vertexShader = (far ? "attribute float far;\n" : "") + varyings + shader.vertexShader.replace(
       "#include <begin_vertex>", `#include <begin_vertex>\n vGround = position;${far ? " vFar = far;" : ""}`);
-    shader.fragmentShader = "uniform sampler2D noise;\n" + varyings + shader.fragmentShader.replace(
+    shader.fragmentShader = "uniform sampler2D noise; uniform vec2 warp;\n" + varyings + shader.fragmentShader.replace(
       "#include <map_fragment>",
-      "#include <map_fragment>\n" + GRASS.replace("GRASS_WILD", wild) + (far ? WOODS : ""));
+      WARPED_MAP + GRASS.replace("GRASS_WILD", wild) + (far ? WOODS : ""));
   };
   return material;
 }
@@ -87,7 +96,7 @@ export function groundMesh(land, noise, anisotropy) {
   picture.magFilter = THREE.LinearFilter;
   picture.anisotropy = anisotropy;
   picture.needsUpdate = true;
-  const mesh = new THREE.Mesh(geometry, grassy(new THREE.MeshLambertMaterial({ map: picture }), noise, "sampledDiffuseColor.a"));
+  const mesh = new THREE.Mesh(geometry, grassy(new THREE.MeshLambertMaterial({ map: picture }), noise, "sampledDiffuseColor.a", { warp: [0.26 / land.width, 0.26 / land.depth] }));
   mesh.receiveShadow = true;
   mesh.castShadow = true;
   return mesh;
@@ -128,7 +137,7 @@ export function hillsMesh(land, noise) {
   geometry.computeVertexNormals();
   const { rgb } = { rgb: land.color(land.materials[land.numbers[mx - 1]] ?? { name: "rough" }) };
   const color = new THREE.Color().setRGB(...rgb.map((c) => c / 255), THREE.SRGBColorSpace);
-  const mesh = new THREE.Mesh(geometry, grassy(new THREE.MeshLambertMaterial({ color, side: THREE.DoubleSide }), noise, "1.0", true));
+  const mesh = new THREE.Mesh(geometry, grassy(new THREE.MeshLambertMaterial({ color, side: THREE.DoubleSide }), noise, "1.0", { far: true }));
   mesh.frustumCulled = false;
   return mesh;
 }
@@ -136,7 +145,7 @@ export function hillsMesh(land, noise) {
 // Sun with one static shadow map over the course, and the light of the sky.
 export function lights(land) {
   const radius = Math.min(260, 0.5 * Math.hypot(land.width, land.depth));
-  const sun = new THREE.DirectionalLight(0xffe9c4, 3.0);
+  const sun = new THREE.DirectionalLight(0xffe6bd, 3.3);
   sun.target.position.set(...land.center, 0);
   sun.position.set(land.center[0] + 900 * SUN[0], land.center[1] + 900 * SUN[1], 900 * SUN[2]);
   sun.castShadow = true;
@@ -144,5 +153,5 @@ export function lights(land) {
   sun.shadow.mapSize.set(4096, 4096);
   sun.shadow.bias = -0.0006;
   sun.shadow.normalBias = 0.06;
-  return [sun, sun.target, new THREE.HemisphereLight(0xcfe2ff, 0x74803f, 1.55)];
+  return [sun, sun.target, new THREE.HemisphereLight(0xd4e4ff, 0x7f8a4c, 1.75)];
 }

@@ -32,12 +32,13 @@ const STYLE = `
 .golf{position:absolute;inset:0;overflow:hidden;font:15px/1.35 "Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif;color:#fff;user-select:none;background:#bcd3e2}
 .golf .over{position:absolute;z-index:2;pointer-events:none}
 .golf .glass{background:linear-gradient(#0d2015d9,#0a180fd9);border:1px solid #ffffff24;border-radius:9px;box-shadow:0 3px 14px #00000038;backdrop-filter:blur(3px)}
-.golf .head{left:16px;top:14px;padding:9px 15px 10px;min-width:150px}
+.golf .head{padding:9px 15px 10px;min-width:150px}
 .golf .head b{font-size:19px;font-weight:650;letter-spacing:.01em}
 .golf .head .sub{opacity:.8;font-size:13px}
 .golf .head .big{font-size:27px;font-weight:680;font-variant-numeric:tabular-nums;margin-top:2px}
 .golf .head .big small{font-size:14px;font-weight:500;opacity:.85;margin-left:6px}
 .golf .right{right:16px;top:14px;display:flex;flex-direction:column;gap:8px;align-items:flex-end}
+.golf .left{left:16px;top:14px;display:flex;flex-direction:column;gap:8px;align-items:flex-start}
 .golf .wind{width:86px;height:86px;border-radius:50%;display:grid;place-items:center;position:relative}
 .golf .wind svg{position:absolute;inset:0}
 .golf .wind span{font-size:17px;font-weight:680;line-height:1;text-align:center;font-variant-numeric:tabular-nums;text-shadow:0 0 4px #000}
@@ -62,7 +63,7 @@ const STYLE = `
 .golf .note.bad{background:#8c1f1fe6}
 .golf .line{left:50%;bottom:16px;transform:translateX(-50%);pointer-events:auto;display:flex;gap:8px;align-items:center;padding:5px 12px}
 .golf .line input{width:min(300px,24vw);accent-color:#6fbf5f}
-.golf .line .text{font-size:12.5px;min-width:92px;text-align:center;font-variant-numeric:tabular-nums}
+.golf .line .text{font-size:12.5px;min-width:120px;white-space:nowrap;text-align:center;font-variant-numeric:tabular-nums}
 .golf .line .speed{width:38px;font-size:13px;font-weight:600}
 .golf.recorded .cards{bottom:66px;max-width:calc(100% - 32px)}
 .golf [hidden]{display:none!important}
@@ -86,11 +87,12 @@ export class Hud {
     this.metric = units === "si";
     box.classList.add("golf");
     element(box, "", STYLE, "style");
-    this.head = element(box, "over glass head");
+    const left = element(box, "over left");
+    this.head = element(left, "glass head");
     const right = element(box, "over right");
     this.cams = element(right, "glass cams");
     this.rose = element(right, "glass wind");
-    const frame = element(right, "glass map");
+    const frame = element(left, "glass map");
     this.map = element(frame, "", "", "canvas");
     this.cards = element(box, "over cards");
     this.pin = element(box, "over glass pin");
@@ -231,29 +233,31 @@ export class Hud {
     this.note.classList.toggle("bad", bad);
   }
 
-  // The course from above, the hole at the top, once; `frame` draws balls over it.
+  // The course from above, the hole at the top, once; `drawMap` draws balls over it.
   paintMap() {
-    const { land } = this, { mx, my } = land.grid, picture = land.paint();
-    const tall = 178, long = mx >= my, scale = tall / Math.max(mx, my), wide = Math.max(46, Math.round(scale * Math.min(mx, my)));
+    const { land } = this, { grid } = land, picture = land.paint(), [[x0, y0], [x1, y1]] = land.around;
+    const rim = 0.02 * Math.max(x1 - x0, y1 - y0) + 1, left = x0 - rim, low = y0 - rim;
+    const width = x1 - x0 + 2 * rim, depth = y1 - y0 + 2 * rim, long = width >= depth;
+    const tall = 190, wide = Math.min(120, Math.max(44, Math.round((tall * Math.min(width, depth)) / Math.max(width, depth))));
     const sharp = Math.min(2, devicePixelRatio || 1);
     Object.assign(this.map, { width: wide * sharp, height: tall * sharp });
     this.map.style.cssText = `width:${wide}px;height:${tall}px`;
     const back = (this.back = document.createElement("canvas"));
     Object.assign(back, { width: this.map.width, height: this.map.height });
     const pen = back.getContext("2d"), image = pen.createImageData(back.width, back.height);
-    const toGrid = (u, v) => (long ? [(1 - v) * mx, (1 - u) * my] : [u * mx, (1 - v) * my]);
     for (let q = 0, k = 0; q < back.height; q++) {
       for (let p = 0; p < back.width; p++, k += 4) {
-        const [i, j] = toGrid((p + 0.5) / back.width, (q + 0.5) / back.height), at = 4 * ((j | 0) * mx + (i | 0));
-        const x = land.grid.x + i * land.texel, y = land.grid.y + j * land.texel;
+        const u = (p + 0.5) / back.width, v = (q + 0.5) / back.height;
+        const x = left + width * (long ? 1 - v : u), y = low + depth * (long ? 1 - u : 1 - v);
+        const i = Math.min(grid.mx - 1, Math.max(0, ((x - grid.x) / land.texel) | 0)), j = Math.min(grid.my - 1, Math.max(0, ((y - grid.y) / land.texel) | 0));
         const light = 1 + Math.max(-0.3, Math.min(0.3, 1.6 * (land.height(x + 1, y - 1) - land.height(x - 1, y + 1))));
-        for (let c = 0; c < 3; c++) image.data[k + c] = Math.min(255, picture[at + c] * light);
+        for (let c = 0; c < 3; c++) image.data[k + c] = Math.min(255, 0.92 * picture[4 * (j * grid.mx + i) + c] * light);
         image.data[k + 3] = 255;
       }
     }
     pen.putImageData(image, 0, 0);
     this.onMap = (x, y) => {
-      const u = (x - land.grid.x) / land.width, v = (y - land.grid.y) / land.depth;
+      const u = (x - left) / width, v = (y - low) / depth;
       return long ? [(1 - v) * back.width, (1 - u) * back.height] : [u * back.width, (1 - v) * back.height];
     };
     for (const pond of land.water) {
@@ -262,10 +266,10 @@ export class Hud {
       pen.fillStyle = "#2f7393";
       pen.fill();
     }
-    pen.fillStyle = "#1d4a24";
+    pen.fillStyle = "#24552b";
     for (const tree of land.obstacles.filter((o) => o.kind === "sphere")) {
       pen.beginPath();
-      pen.arc(...this.onMap(tree.place[0], tree.place[1]), Math.max(1.2, (tree.radius / land.width) * (long ? back.height : back.width)), 0, 7);
+      pen.arc(...this.onMap(tree.place[0], tree.place[1]), Math.max(1.2, (tree.radius / width) * (long ? back.height : back.width)), 0, 7);
       pen.fill();
     }
     this.drawMap();
@@ -288,10 +292,12 @@ export class Hud {
       const way = Math.hypot(land.hole[0] - ball.place.x, land.hole[1] - ball.place.y);
       pen.font = `600 ${10 * sharp}px sans-serif`;
       pen.fillStyle = "#fff";
-      pen.textAlign = from[0] > map.width / 2 ? "right" : "left";
+      pen.textAlign = "center";
       pen.shadowColor = "#000";
       pen.shadowBlur = 3 * sharp;
-      pen.fillText(this.distance(way), (from[0] + to[0]) / 2 + (from[0] > map.width / 2 ? -4 : 4) * sharp, (from[1] + to[1]) / 2);
+      const text = this.distance(way), half = pen.measureText(text).width / 2 + 2 * sharp;
+      const x = Math.min(map.width - half, Math.max(half, (from[0] + to[0]) / 2 + half + 4 * sharp));
+      pen.fillText(text, x, (from[1] + to[1]) / 2);
       pen.shadowBlur = 0;
     }
     for (const each of view.balls) this.drawTracer(pen, each, sharp);

@@ -21,14 +21,14 @@ export const SUN = unit([-0.6, 0.52, 0.4]);
 
 // sRGB of what grows and lies on a course. Lighter than the files' colours, which suit plots.
 const LOOK = {
-  rough: [66, 104, 44],
-  first_cut: [80, 122, 50],
-  fairway: [101, 150, 62],
-  tee: [104, 156, 66],
-  green: [118, 172, 78],
-  firm_green: [128, 178, 82],
-  soft_green: [110, 168, 80],
-  sand: [226, 208, 166],
+  rough: [88, 126, 58],
+  first_cut: [98, 140, 62],
+  fairway: [126, 172, 82],
+  tee: [128, 176, 84],
+  green: [146, 194, 100],
+  firm_green: [154, 198, 104],
+  soft_green: [138, 190, 100],
+  sand: [232, 216, 178],
   hardpan: [172, 144, 108],
   artificial_turf: [58, 136, 78],
   stone: [146, 143, 136],
@@ -130,7 +130,7 @@ export class Land {
         const number = this.numbers[k], kind = kinds[number] ?? nothing;
         let g = 1;
         if (kind.stripes) g += bands[number].along[i] + bands[number].across[j];
-        if (kind.sand) g *= this.lip(kinds, i, j, 1);
+        if (kind.sand) g *= this.lip(kinds, i, j);
         const at = 4 * k;
         picture[at] = Math.min(255, kind.rgb[0] * g);
         picture[at + 1] = Math.min(255, kind.rgb[1] * g);
@@ -138,8 +138,30 @@ export class Land {
         picture[at + 3] = kind.wild;
       }
     }
+    this.soften(picture);
     for (const pond of this.water) this.flood(picture, pond);
     return picture;
+  }
+
+  // Blend colours across the edges between materials, which else are steps of a texel.
+  soften(picture) {
+    const { mx, my } = this.grid, { numbers } = this, edges = [], sums = [];
+    for (let j = 1; j < my - 1; j++) {
+      for (let i = 1, k = j * mx + 1; i < mx - 1; i++, k++) {
+        const own = numbers[k];
+        if (numbers[k - 1] === own && numbers[k + 1] === own && numbers[k - mx] === own && numbers[k + mx] === own
+          && numbers[k - mx - 1] === own && numbers[k - mx + 1] === own && numbers[k + mx - 1] === own && numbers[k + mx + 1] === own) continue;
+        edges.push(k);
+        for (let c = 0; c < 4; c++) {
+          const at = 4 * k + c, row = 4 * mx;
+          sums.push((4 * picture[at] + 2 * (picture[at - 4] + picture[at + 4] + picture[at - row] + picture[at + row])
+            + picture[at - row - 4] + picture[at - row + 4] + picture[at + row - 4] + picture[at + row + 4]) / 16);
+        }
+      }
+    }
+    edges.forEach((k, n) => {
+      for (let c = 0; c < 4; c++) picture[4 * k + c] = sums[4 * n + c];
+    });
   }
 
   // Brightness of the stripes of each material, by column and by row.

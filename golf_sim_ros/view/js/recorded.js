@@ -115,7 +115,7 @@ export class RecordedSource {
     const over = this.time >= shot.end;
     if (anew || over !== this.over) this.onEvent(over ? { kind: "result", ...shot.result } : { kind: "strike", ball: shot.ball });
     this.over = over;
-    const wind = this.play.wind.filter((row) => row[0] <= this.time).pop();
+    const wind = this.play.wind.filter((row) => row[0] <= this.time).pop() ?? this.play.wind[0];
     if (wind) this.onEvent({ kind: "wind", wind: wind.slice(1) });
   }
 

@@ -16,7 +16,7 @@
 import { THREE } from "nicegui-scene";
 import { SUN } from "./land.js";
 
-const HAZE = 1500; // m at which two thirds of a thing's colour are the sky's
+const HAZE = 1250; // m at which two thirds of a thing's colour are the sky's
 
 const vec = (v) => `vec3(${v.map((x) => x.toFixed(4)).join(",")})`;
 

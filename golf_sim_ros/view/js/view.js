@@ -23,7 +23,7 @@ import { boundary, pin, ponds, solids, teeMarkers, trees, walls } from "./things
 const COLORS = [0xffffff, 0xff8a5c, 0x7cc7ff, 0xffe066, 0xd9a5ff, 0x8ff0a4];
 const IDLE = 1 / 15; // s between pictures while only flag and water move
 const SLOW = 0.12; // s a picture takes where a processor draws: then pictures are fewer and plainer
-const EXPOSURE = 0.98;
+const EXPOSURE = 0.95;
 
 export class GolfView {
   constructor(box) {
@@ -169,11 +169,15 @@ export class GolfView {
     this.arrows = this.line = null;
   }
 
-  hideHints() {
-    this.hideGreen();
+  hideLine() {
     this.hint?.clear();
     for (const ring of this.rings ?? []) ring.visible = false;
     this.changed = true;
+  }
+
+  hideHints() {
+    this.hideGreen();
+    this.hideLine();
   }
 
   choose(mode) {
