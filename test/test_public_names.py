@@ -29,6 +29,8 @@ COMMANDS = {
     'record_play',
     'resimulate',
     'plot_play',
+    'view_play',
+    'play_hole',
     'accuracy_study',
     'compile_physics',
 }

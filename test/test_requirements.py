@@ -70,7 +70,11 @@ BY_PIP = {
     ),
     'trimesh': ('mesh', 'trimesh', ('golf_sim_ros/course/mesh_file.py',)),
     'rasterio': ('terrain', 'rasterio', ('golf_sim_ros/course/terrain_file.py',)),
+    'nicegui': ('view', 'nicegui', ('golf_sim_ros/view/page.py', 'golf_sim_ros/view/server.py')),
+    'fastapi': ('view', 'nicegui', ('golf_sim_ros/view/server.py',)),  # NiceGUI is made of it
 }
+# Modules that are imported only when what they need is asked for.
+LATE = ('golf_sim_ros/physics/jit/', 'golf_sim_ros/view/page.py', 'golf_sim_ros/view/server.py')
 # Every apt key here is one of rosdep's, for apt, in rosdistro's python.yaml, with no exception for
 # a release.
 NO_APT_KEY = ('python3-numba', 'python3-rosbags-pip', 'python3-trimesh-pip')
@@ -166,7 +170,7 @@ def test_what_apt_has_not_is_imported_when_needed_and_only_where_it_is_told_how_
         name(path): hard for path in PACKAGE for found, hard in imports(path) if found == module
     }
     assert [place for place in importers if not place.startswith(places)] == []
-    assert not any(hard and 'physics/jit/' not in place for place, hard in importers.items())
+    assert not any(hard and not place.startswith(LATE) for place, hard in importers.items())
     assert wanted in names(setup['extras_require'][extra])
 
 
@@ -185,6 +189,8 @@ def test_the_manifest_asks_for_nothing_that_apt_has_not(kind):
         'cli.resimulate',
         'cli.plot_play',
         'cli.accuracy_study',
+        'cli.view_play',
+        'cli.play_hole',
         'bag',
         'course',
         'physics',
@@ -228,6 +234,11 @@ def without(missing, source):
             'matplotlib',
             'from golf_sim_ros.cli.plot_play import main; sys.exit(main(["play"]))',
             ['apt install python3-matplotlib', "pip install 'golf_sim_ros[plot]'"],
+        ),
+        (
+            'nicegui',
+            'from golf_sim_ros.cli.play_hole import main; sys.exit(main([]))',
+            ["pip install 'golf_sim_ros[view]'", '--terminal'],
         ),
         *(
             (

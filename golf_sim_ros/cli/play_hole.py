@@ -154,8 +154,7 @@ def in_browser(options: argparse.Namespace) -> int:
     session = game.session
     server.serve_feed(session.feed)
     server.show(
-        '/',
-        lambda: page.PlayPage(session, worker, game.link.strike, game.go_on, options.units),
+        '/', lambda: page.PlayPage(session, worker, game.link.strike, game.go_on, options.units)
     )
     server.at_start(game.open)
     tasks = []

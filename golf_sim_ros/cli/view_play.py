@@ -128,7 +128,9 @@ def replayed(options: argparse.Namespace, course: Any, play: bytes) -> int:
 
     place = place_of(options)
     server.serve_replay(
-        course_data(course), play, lambda *urls: page.replay_page(*urls, course.name, options.units)
+        course_data(course),
+        play,
+        lambda *urls: page.replay_page(*urls, course.name, options.units),
     )
     return server.run(place, course.name, ready(place), nothing, nothing)
 

@@ -253,7 +253,9 @@ def likely_clubs(way: float) -> list:
 def usual_power(club: str, way: float) -> float:
     """About the power with which a club carries to the hole, at most a whole shot."""
     carry = CLUBS[club].carry
-    return 1.0 if not carry or way >= carry or way <= 0.0 else max(LEAST_POWER, (way / carry) ** 0.6)
+    return (
+        1.0 if not carry or way >= carry or way <= 0.0 else max(LEAST_POWER, (way / carry) ** 0.6)
+    )
 
 
 def reaching(

@@ -88,7 +88,9 @@ def pack(course: Course) -> bytes:
     }
     head = json.dumps(about).encode()
     head += b' ' * (len(head) % 2)
-    return b'GOLF' + struct.pack('<I', len(head)) + head + differences.tobytes() + numbers.tobytes()
+    return (
+        b'GOLF' + struct.pack('<I', len(head)) + head + differences.tobytes() + numbers.tobytes()
+    )
 
 
 def grid(course: Course) -> tuple:

@@ -270,7 +270,9 @@ class PlayPage:
         elif event.key.arrow_left or event.key.arrow_right:
             self.aim.value = round(self.aim.value + (0.4 if event.key.arrow_right else -0.4), 2)
         elif event.key.arrow_up or event.key.arrow_down:
-            self.power.value = min(110, max(8, self.power.value + (1 if event.key.arrow_up else -1)))
+            self.power.value = min(
+                110, max(8, self.power.value + (1 if event.key.arrow_up else -1))
+            )
 
     def update(self) -> None:
         """Follow the session: the button, the hints at a new place, the card at the end."""

@@ -157,7 +157,7 @@ export class Ball {
     this.moving = false;
     this.seen = false;
     this.mesh = new THREE.Mesh(new THREE.SphereGeometry(radius, 24, 16), new THREE.MeshLambertMaterial({ color, emissive: color, emissiveIntensity: 0.34 }));
-    this.shadow = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({ map: disc, transparent: true, depthWrite: false, color: 0x000000, polygonOffset: true, polygonOffsetFactor: -4, polygonOffsetUnits: -8 }));
+    this.shadow = new THREE.Mesh(new THREE.PlaneGeometry(1, 1), new THREE.MeshBasicMaterial({ map: disc, transparent: true, depthWrite: false, color: 0x000000, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 }));
     this.shadow.renderOrder = 3;
     this.tracers = [new Ribbon(scene)];
     this.mesh.visible = this.shadow.visible = false;

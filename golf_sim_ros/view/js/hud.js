@@ -98,7 +98,7 @@ export class Hud {
     this.pin = element(box, "over glass pin");
     this.note = element(box, "over glass note");
     this.note.hidden = this.pin.hidden = true;
-    this.state = { stroke: 1, hole: "", par: null, result: null };
+    this.state = { stroke: null, hole: "", par: null, result: null };
     this.buttons();
     this.blow([0, 0, 0]);
     this.keys = (event) => this.onKey(event);
@@ -185,9 +185,16 @@ export class Hud {
       const small = ball.moving ? "" : `<small>${rise >= 0 ? "▲" : "▼"} ${this.metric || way >= 25 ? this.length(Math.abs(rise), 1) : `${(Math.abs(rise) / FOOT * 12).toFixed(0)} in`}</small>`;
       text += `<div class="big">${this.distance(way)}${small}</div>`;
     }
-    const lie = ball.moving ? "in motion" : this.state.lie || land.material(ball.place.x, ball.place.y).replaceAll("_", " ");
+    const lie = ball.moving ? "in motion" : this.lie(ball).replaceAll("_", " ");
     text += `<div class="sub">${escape(lie)}</div>`;
     if (text !== this.headText) this.head.innerHTML = this.headText = text;
+  }
+
+  // What the ball lies on: as the result said where it lies there still, else the ground.
+  lie(ball) {
+    const { result } = this.state, { x, y, z } = ball.place, p = result?.position;
+    const there = p && Math.hypot(p[0] - x, p[1] - y, p[2] - z) < 0.05;
+    return (there && result.lie) || this.land.material(x, y);
   }
 
   blow(wind) {

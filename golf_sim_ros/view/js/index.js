@@ -57,12 +57,10 @@ export class GolfPage {
     if (!this.ready) return undefined;
     if (event.kind === "strike") {
       hud.showResult(null);
-      hud.update({ lie: "" });
       view.hideHints();
       live.strike(event.ball, event.time);
     } else if (event.kind === "result") {
       hud.showResult(event);
-      if (event.stroke) hud.update({ stroke: event.stroke + (event.status === "holed" ? 0 : 1 + (event.penalty ?? 0)) });
     }
     return undefined;
   }

@@ -183,6 +183,7 @@ export function pin(land) {
 }
 
 export function teeMarkers(land) {
+  if (land.material(land.tee[0], land.tee[1]).endsWith("green")) return [];
   const material = new THREE.MeshLambertMaterial({ color: 0x2c5fae, emissive: 0x0b1a33 });
   return [1, -1].map((side) => {
     const [x, y] = land.tee, mesh = new THREE.Mesh(new THREE.SphereGeometry(0.09, 18, 12), material);
