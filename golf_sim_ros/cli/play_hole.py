@@ -17,9 +17,9 @@
 import argparse
 import asyncio
 import sys
-from typing import Any, Optional
+from typing import Optional
 
-from .pipes import in_pipes, say
+from .pipes import in_pipes
 from .view_play import add_page, failed_with, linked, NoView, place_of, ready
 from ..course import CourseError, load_course
 from ..optional_packages import how_to_get
@@ -109,9 +109,9 @@ class Game:
         course = options.course if options.namespace is not None else None
         self.link = link_to(self.session, namespace, True, course)
 
-    def open(self) -> None:
+    def begin(self) -> None:
         """Begin with the first hole."""
-        self.link.open()
+        self.link.connect()
         if self.own:
             self.own.start(self.options.courses[0])
 
@@ -156,7 +156,7 @@ def in_browser(options: argparse.Namespace) -> int:
     server.show(
         '/', lambda: page.PlayPage(session, worker, game.link.strike, game.go_on, options.units)
     )
-    server.at_start(game.open)
+    server.at_start(game.begin)
     tasks = []
     if options.demo:
         demo = demonstrate(session, worker, game, lambda: bool(session.feed.clients))

@@ -145,7 +145,7 @@ def watched(options: argparse.Namespace) -> int:
     link = link_to(session, options.namespace, False, options.course)
     server.serve_feed(session.feed)
     server.show('/', lambda: page.watch_page(options.units))
-    server.at_start(link.open)
+    server.at_start(link.connect)
     return server.run(place, 'golf_sim_ros', ready(place), session.feed.close, link.close)
 
 
@@ -173,7 +173,7 @@ def place_of(options: argparse.Namespace) -> Any:
 
 
 def ready(place: Any, more: str = 'Ctrl-C ends it') -> Any:
-    """Function that prints the page's URL when it can be opened."""
+    """Make what prints the page's URL when it can be opened."""
 
     def tell(url: str) -> None:
         say(f'{url}   (open it in a browser; {more})')
@@ -196,7 +196,7 @@ def note(text: str) -> None:
 
 
 def failed_with(program: str) -> Callable:
-    """Function that says in one line why there is no page, and gives the exit code."""
+    """Make what says in one line why there is no page, and gives the exit code."""
 
     def failed(reason: object) -> int:
         print(f'{program}: {" ".join(str(reason).split())}', file=sys.stderr)

@@ -68,7 +68,7 @@ class Flight(NamedTuple):
 
 
 def launch(hole: Optional[tuple], place: tuple, stroke: Stroke) -> tuple:
-    """Velocity and spin of a stroke at a ball at `place`, towards `hole`, or along x without one."""
+    """Velocity and spin of a stroke from `place` towards `hole`, or along x without one."""
     heading = atan2(hole[1] - place[1], hole[0] - place[0]) if hole else 0.0
     if stroke.club == PUTTER:
         given = Launch(stroke.power)
@@ -172,7 +172,7 @@ def slope_at(course: Course, x: float, y: float) -> Optional[list]:
 
 
 def putt(course: Course, place: tuple, wind: tuple = (0.0, 0.0, 0.0)) -> Stroke:
-    """The putt that dies a little past the hole, on the line that holes it.
+    """Find the putt that dies a little past the hole, on the line that holes it.
 
     Along and across the line to the hole the end is to be `BEYOND` past it: two unknowns, speed
     and aim, are corrected by how far the end is off; tried on the course without its hole.
@@ -213,7 +213,7 @@ def passes(path: np.ndarray, hole: np.ndarray, ahead: np.ndarray) -> float:
 
 
 def putt_speed(way: float) -> float:
-    """Speed that rolls about so far on a level green of stimp 10 [m/s]: where the search begins."""
+    """Speed that rolls about so far on a level green of stimp 10 [m/s]."""
     return (2.0 * 0.75 * way) ** 0.5 * 1.15
 
 
@@ -226,7 +226,7 @@ def green(course: Course, place: tuple, wind: tuple) -> dict:
 
 
 def choose(course: Course, place: tuple, wind: tuple) -> Stroke:
-    """The stroke to play from `place`: one that leaves the least way, away from water and sand."""
+    """Choose the stroke to play from `place`: one that leaves the least way, away from water and sand."""
     if is_putt(course, place):
         return putt(course, place, wind)
     way = hypot(course.hole[0] - place[0], course.hole[1] - place[1])
@@ -261,7 +261,7 @@ def usual_power(club: str, way: float) -> float:
 def reaching(
     course: Course, place: tuple, club: str, aim: float, way: float, wind: tuple
 ) -> tuple:
-    """The power with which a club ends nearest to the hole, as a stroke, and what that leaves [m]."""
+    """Search how hard to hit a club to end at the hole: the stroke, and what it leaves [m]."""
     low, high, best = LEAST_POWER, MOST_POWER, (1e9, None)
     for n in range(HALVINGS):
         power = MOST_POWER if n == 0 else 0.5 * (low + high)
@@ -282,7 +282,7 @@ def reaching(
 
 
 def left_over(result: Result, way: float) -> float:
-    """What an end leaves to do [m]: the way to the hole, more where the ball lies badly."""
+    """Weigh what an end leaves to do [m]: the way to the hole, more where the ball lies badly."""
     if result.status == 'holed':
         return 0.0
     if result.status in ('water', 'out_of_bounds', 'failed', 'time_limit'):

@@ -107,7 +107,7 @@ def grid(course: Course) -> tuple:
 
 
 def surroundings(course: Course) -> tuple:
-    """Corners of a rectangle around all that is finite, bounds left out where they are far away."""
+    """Corners of a rectangle around all that is finite, except the bounds."""
     places = [course.tee[:2], *([course.hole[:2]] if course.hole else [])]
     for shape in course.ground:
         whole = isinstance(shape, Plane)
@@ -165,12 +165,12 @@ def on_ground(course: Course, place: tuple) -> list:
 
 
 def points(places: tuple) -> list:
-    """Lists of numbers, to a millimetre."""
+    """Round to lists of numbers, to a millimetre."""
     return [[round(float(number), 3) for number in place] for place in places]
 
 
 def obstacle(shape: tuple) -> dict:
-    """A sphere or an upright cylinder, for JSON."""
+    """Describe a sphere or an upright cylinder, for JSON."""
     is_sphere = isinstance(shape, Sphere)
     return {
         'kind': 'sphere' if is_sphere else 'cylinder',

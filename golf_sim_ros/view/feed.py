@@ -57,7 +57,7 @@ class Client:
         self.waiting.clear()
         self.news.set()
 
-    async def next(self) -> Union[str, bytes, None]:
+    async def take(self) -> Union[str, bytes, None]:
         """Next message, poses that wait joined into one; None once it is closed."""
         while not self.waiting:
             if self.closed:

@@ -74,7 +74,7 @@ class Hole:
         self.holed = result['status'] == 'holed'
 
     def verdict(self) -> str:
-        """The score in words."""
+        """Call the score by its name."""
         if self.strokes == 1:
             return 'hole in one'
         over = self.strokes - self.par
@@ -109,7 +109,7 @@ class Round:
             self.hole.add(result, club)
 
     def score(self) -> dict:
-        """What pages show at their heads."""
+        """Sum up what pages show at their heads."""
         if not self.holes:
             return {}
         hole = self.hole

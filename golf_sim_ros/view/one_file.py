@@ -40,7 +40,8 @@ const unpacked = async (text) => {
 (async () => {
   const imports = {};
   for (const [name, text] of Object.entries(files.modules)) {
-    imports[name] = URL.createObjectURL(new Blob([await unpacked(text)], { type: "text/javascript" }));
+    const blob = new Blob([await unpacked(text)], { type: "text/javascript" });
+    imports[name] = URL.createObjectURL(blob);
   }
   const map = document.createElement("script");
   map.type = "importmap";
@@ -51,7 +52,8 @@ const unpacked = async (text) => {
   page.showCourse(await unpacked(files.course));
   page.replay(await unpacked(files.play));
 })().catch((error) => {
-  document.getElementById("golf").textContent = `This browser cannot show the play: ${error.message}`;
+  const reason = `This browser cannot show the play: ${error.message}`;
+  document.getElementById("golf").textContent = reason;
 });
 </script>
 """

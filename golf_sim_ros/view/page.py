@@ -34,9 +34,9 @@ PATIENCE = 0.15  # s without a change after which a prediction is asked for
 MOST_PUTT = 9.0  # m/s
 STYLE = """
 .nicegui-content{padding:0}
-.strike{position:absolute;right:16px;bottom:16px;width:252px;z-index:3;gap:0;padding:10px 14px 12px;
-  color:#fff;background:linear-gradient(#0d2015e0,#0a180fe0);border:1px solid #ffffff24;border-radius:9px;
-  box-shadow:0 3px 14px #00000038;font-size:13px}
+.strike{position:absolute;right:16px;bottom:16px;width:252px;z-index:3;gap:0;
+  padding:10px 14px 12px;color:#fff;background:linear-gradient(#0d2015e0,#0a180fe0);
+  border:1px solid #ffffff24;border-radius:9px;box-shadow:0 3px 14px #00000038;font-size:13px}
 .strike .q-slider{height:22px}
 .strike .told{display:flex;justify-content:space-between;width:100%;margin-top:3px}
 .strike .told b{font-weight:640;font-variant-numeric:tabular-nums}
@@ -65,13 +65,13 @@ def dress(title: str) -> None:
 
 
 def watch_page(units: str) -> None:
-    """A page that shows a live play."""
+    """Build a page that shows a live play."""
     dress('golf_sim_ros')
     GolfScene(feed='/feed', units=units)
 
 
 def replay_page(course_url: str, play_url: str, title: str, units: str) -> None:
-    """A page that shows a recorded play."""
+    """Build a page that shows a recorded play."""
     dress(title)
     GolfScene(course=course_url, play=play_url, units=units)
 
@@ -117,7 +117,7 @@ class PlayPage:
         self.update()
 
     def panel(self) -> None:
-        """The panel: club, power, aim, curve, and the button."""
+        """Build the panel: club, power, aim, curve, and the button."""
         names = {name: club_label(name, self.units) for name in CLUBS}
         with ui.column().classes('strike'):
             self.club = ui.select(names, value='driver', on_change=self.on_club)
@@ -137,7 +137,7 @@ class PlayPage:
     def slider(
         self, name: str, low: float, high: float, value: float, step: float, text: Callable
     ) -> ui.slider:
-        """A slider with its name and, as people read it, its value."""
+        """Build a slider with its name and, as people read it, its value."""
         with ui.element('div').classes('told'):
             ui.label(name)
             told = ui.html(text(value), sanitize=False)
@@ -309,7 +309,7 @@ class PlayPage:
             self.on_club()
 
     def card_dialog(self) -> None:
-        """The score card, closed."""
+        """Build the score card, closed."""
         with ui.dialog() as self.dialog, ui.card().style('width:620px;max-width:92vw'):
             self.card = ui.column().classes('card-table')
 
@@ -334,7 +334,7 @@ def club_label(name: str, units: str) -> str:
 
 
 def told(answer: dict, units: str) -> str:
-    """A prediction in words."""
+    """Put a prediction into words."""
     length = UNITS[units].length
 
     def show(meters: float, digits: int = 0) -> str:

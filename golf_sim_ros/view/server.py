@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The page's server: on this machine only unless told otherwise, ended by a signal with exit code 0."""
+"""The page's server: on this machine only unless told otherwise; a signal ends it with code 0."""
 
 import asyncio
 from contextlib import suppress
@@ -115,7 +115,7 @@ async def hear(socket_: WebSocket, feed: Feed, client: object) -> None:
 async def talk(socket_: WebSocket, client: object) -> None:
     """Send what waits for a browser."""
     with suppress(WebSocketDisconnect, RuntimeError):
-        while (message := await client.next()) is not None:
+        while (message := await client.take()) is not None:
             await (socket_.send_text if isinstance(message, str) else socket_.send_bytes)(message)
 
 

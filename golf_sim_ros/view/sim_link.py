@@ -68,7 +68,7 @@ class SimLink:
         self.ended = threading.Event()
         self.start, self.of_balls, self.names = None, [], []
 
-    def open(self) -> None:
+    def connect(self) -> None:
         """Begin to listen; called in the event loop."""
         self.loop = asyncio.get_running_loop()
         rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
@@ -167,7 +167,7 @@ class SimLink:
                 self.of_balls.append(subscription)
 
     def time_of(self, message: object) -> float:
-        """Simulated time of a stamp [s]."""
+        """Reckon the simulated time of a stamp [s]."""
         stamp = message.header.stamp
         return 1e-9 * (stamp.sec * 10**9 + stamp.nanosec - self.start)
 

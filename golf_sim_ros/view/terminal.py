@@ -58,7 +58,7 @@ async def rounds(game: Any, options: Any) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         loop.add_signal_handler(number, task.cancel)
     worker = Worker()
-    game.open()
+    game.begin()
     try:
         while True:
             session = game.session
@@ -90,9 +90,9 @@ async def demonstrated(session: Session, worker: Worker, game: Any, units: str) 
 
     def tell() -> None:
         lines = session.round.hole.lines
-        for line in lines[told[0] :]:
+        first, told[0] = told[0], len(lines)
+        for line in lines[first:]:
             print(described(line, units), flush=True)
-        told[0] = len(lines)
 
     forget = session.listen(tell)
     try:
@@ -123,7 +123,7 @@ async def typed(session: Session, worker: Worker, game: Any, units: str) -> bool
 
 
 async def next_line() -> Optional[str]:
-    """Next line of standard input; None where it ended."""
+    """Read a line of standard input; None where it ended."""
     loop, ready = asyncio.get_running_loop(), asyncio.Event()
     try:
         loop.add_reader(sys.stdin, ready.set)
@@ -137,7 +137,7 @@ async def next_line() -> Optional[str]:
 
 
 async def understood(line: str, session: Session, worker: Worker) -> Optional[Stroke]:
-    """Stroke of a typed line; None where it is none, after a line that says why."""
+    """Read a typed line as a stroke; None where it is none, after a line that says why."""
     words = line.split()
     if words == ['?']:
         given = {'place': list(session.place), 'wind': list(map(float, session.wind))}
@@ -154,12 +154,13 @@ async def understood(line: str, session: Session, worker: Worker) -> Optional[St
 
 
 def stroke_of(words: list, session: Session) -> Stroke:
-    """Stroke of words; ValueError where they are none."""
+    """Read words as a stroke; ValueError where they are none."""
     name = club(words[0]).name
     if len(words) > 4:
         raise ValueError('CLUB, POWER, AIM and CURVE are all there is')
     numbers = [float(word) for word in words[1:]]
-    power, aim, curve = (*numbers, *(None, 0.0, 0.0)[len(numbers) :])
+    given = len(numbers)
+    power, aim, curve = (*numbers, *(None, 0.0, 0.0)[given:])
     if name == PUTTER:
         way = hypot(*(h - p for h, p in zip(session.course.hole, session.place)))
         return Stroke(name, caddie.putt_speed(way + 0.3) if power is None else power, aim)
@@ -167,13 +168,13 @@ def stroke_of(words: list, session: Session) -> Stroke:
 
 
 def advice(stroke: Stroke) -> str:
-    """A stroke as it is typed."""
+    """Write a stroke as it is typed."""
     power = stroke.power if stroke.club == PUTTER else 100 * stroke.power
     return f'{stroke.club} {power:.2f} {stroke.aim:.1f}'
 
 
 def situation(session: Session, units: str) -> str:
-    """Line before what is typed: stroke, way, lie, wind."""
+    """Describe where the ball lies: stroke, way, wind, a club."""
     length, course, place = UNITS[units].length, session.course, session.place
     way = hypot(course.hole[0] - place[0], course.hole[1] - place[1]) / length.size
     wind = hypot(*session.wind[:2])
@@ -186,7 +187,7 @@ def situation(session: Session, units: str) -> str:
 
 
 def described(line: Any, units: str) -> str:
-    """A stroke that was played, in a line."""
+    """Describe a stroke that was played."""
     length, result = UNITS[units].length, line.result
     ends = {'holed': 'in the hole', 'water': 'in the water', 'out_of_bounds': 'out of bounds'}
     end = ends.get(result['status'], result['lie'].replace('_', ' '))
@@ -196,5 +197,5 @@ def described(line: Any, units: str) -> str:
 
 
 def card(hole: Hole) -> str:
-    """The score of a hole."""
+    """Describe the score of a hole."""
     return f'{hole.name}: {hole.strokes} strokes, {hole.verdict()} (par {hole.par})'

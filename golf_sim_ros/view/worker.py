@@ -58,7 +58,7 @@ class Worker:
 
 
 async def started() -> asyncio.subprocess.Process:
-    """A child process that answers."""
+    """Start a child process that answers."""
     return await asyncio.create_subprocess_exec(
         sys.executable,
         '-m',
@@ -83,7 +83,7 @@ def green(course: tuple, place: list, wind: list) -> Optional[dict]:
 
 
 def choose(course: tuple, place: list, wind: list) -> dict:
-    """The stroke to play."""
+    """Choose the stroke to play."""
     return caddie.choose(course, tuple(place), tuple(wind))._asdict()
 
 
