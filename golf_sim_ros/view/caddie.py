@@ -19,7 +19,9 @@ from typing import NamedTuple, Optional
 
 import numpy as np
 
+from .raster import ground_grid
 from ..physics import Course, ground_height, Rejected, Result, World
+from ..physics.scene.kernel_model import materials
 from ..shot_input.clubs import CLUBS, PUTTER
 from ..shot_input.launch_monitor import Launch, parted, velocity_and_spin
 
@@ -32,6 +34,7 @@ BEYOND = 0.35  # m past the hole that a putt is to reach
 FASTEST_PUTT = 12.0  # m/s
 TRIES = 14  # putts that are tried to find the line
 GREENS = ('green', 'firm_green', 'soft_green', 'artificial_turf')
+ASIDE = 0.05  # m from one height to the next, of which a slope is taken
 LEAST_POWER, MOST_POWER = 0.08, 1.0
 HALVINGS = 7
 WORSE = {'sand': 22.0, 'rough': 7.0, 'water': 150.0}  # m that such an end is worse than a fairway
@@ -141,34 +144,23 @@ def is_putt(course: Course, place: tuple) -> bool:
 
 
 def slopes(course: Course, place: tuple) -> list:
-    """Rows of x, y, z and the slope along x and y, on a grid around ball and hole."""
-    hole = np.array(course.hole)
-    ball = np.array(place[:2])
+    """Rows of x, y, z and the slope along x and y of the green, on a grid around ball and hole."""
+    hole, ball = np.array(course.hole, float), np.array(place[:2], float)
     way = max(np.hypot(*(hole - ball)), 3.0)
     step = 0.5 if way < 7.0 else 1.0
-    half = 0.5 * way + 2.0
-    middle = 0.5 * (hole + ball)
-    rows = []
-    for x in np.arange(-half, half + 1e-9, step) + np.round(middle[0] / step) * step:
-        for y in np.arange(-half, half + 1e-9, step) + np.round(middle[1] / step) * step:
-            row = slope_at(course, x, y)
-            if row:
-                rows.append(row)
-    return rows
-
-
-def slope_at(course: Course, x: float, y: float) -> Optional[list]:
-    """x, y, z and the slope along x and y on a green; None elsewhere."""
-    d = 0.05
-    here = ground_height(course, x, y)
-    if not here or here[1] not in GREENS:
-        return None
-    around = [ground_height(course, x + a, y + b) for a, b in ((d, 0), (-d, 0), (0, d), (0, -d))]
-    if not all(around):
-        return None
-    east, west, north, south = (found[0] for found in around)
-    slope = ((east - west) / (2 * d), (north - south) / (2 * d))
-    return [round(float(v), 4) for v in (x, y, here[0], *slope)]
+    half = np.ceil((0.5 * way + 2.0) / step) * step
+    x, y = (
+        np.arange(middle - half, middle + half + 1e-9, step)
+        for middle in np.round(0.5 * (hole + ball) / step) * step
+    )
+    heights, numbers = ground_grid(course, x, y)
+    east, west = (ground_grid(course, x + d, y)[0] for d in (ASIDE, -ASIDE))
+    north, south = (ground_grid(course, x, y + d)[0] for d in (ASIDE, -ASIDE))
+    greens = [k for k, material in enumerate(materials(course)) if material.name in GREENS]
+    along, up = (east - west) / (2 * ASIDE), (north - south) / (2 * ASIDE)
+    on = np.isin(numbers, greens) & np.isfinite(along) & np.isfinite(up)
+    rows = np.column_stack([*(grid[on] for grid in np.meshgrid(x, y)), heights[on]])
+    return np.round(np.column_stack([rows, along[on], up[on]]), 4).tolist()
 
 
 def putt(course: Course, place: tuple, wind: tuple = (0.0, 0.0, 0.0)) -> Stroke:
@@ -217,16 +209,14 @@ def putt_speed(way: float) -> float:
     return (2.0 * 0.75 * way) ** 0.5 * 1.15
 
 
-def green(course: Course, place: tuple, wind: tuple) -> dict:
-    """Slopes around a putt, and the line that holes, for JSON."""
-    stroke = putt(course, place, wind)
-    flight = play_out(course, place, stroke, wind)
-    line = [] if flight is None else np.round(flight.path, 3).tolist()
-    return {'slopes': slopes(course, place), 'line': line, 'stroke': stroke._asdict()}
+def line(course: Course, place: tuple, wind: tuple) -> list:
+    """Rows of x, y, z of the putt that holes."""
+    flight = play_out(course, place, putt(course, place, wind), wind)
+    return [] if flight is None else np.round(flight.path, 3).tolist()
 
 
 def choose(course: Course, place: tuple, wind: tuple) -> Stroke:
-    """Choose the stroke to play from `place`: one that leaves the least way, away from water and sand."""
+    """Choose the stroke that leaves the least way from `place`, clear of water and sand."""
     if is_putt(course, place):
         return putt(course, place, wind)
     way = hypot(course.hole[0] - place[0], course.hole[1] - place[1])

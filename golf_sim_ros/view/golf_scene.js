@@ -48,8 +48,9 @@ export default {
     predict(hint) {
       this._page?.view.predict(hint);
     },
-    readGreen(green) {
-      this._page?.view.readGreen(green);
+    readGreen(kind, rows) {
+      if (kind === "slopes") this._page?.view.showSlopes(rows);
+      else this._page?.view.showLine(rows);
     },
     hideHints() {
       this._page?.view.hideHints();

@@ -243,12 +243,13 @@ class PlayPage:
         )
 
     async def read_green(self, key: tuple) -> None:
-        """Show the slopes of the green and the line that holes, where the ball is to be putted."""
-        green = await self.ask('green')
-        if green is None or key != self.shown or self.client.is_deleted:
-            return
-        if self.hints.value:
-            self.scene.run_method('readGreen', green)
+        """Show the slopes of the green, then the line that holes."""
+        for question in ('slopes', 'line'):
+            answer = await self.ask(question)
+            if key != self.shown or self.client.is_deleted:
+                return
+            if answer and self.hints.value:
+                self.scene.run_method('readGreen', question, answer)
 
     def strike(self) -> None:
         """Strike the ball."""

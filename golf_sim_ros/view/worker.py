@@ -75,11 +75,14 @@ def predict(course: tuple, place: list, wind: list, stroke: dict) -> Optional[di
     return caddie.prediction(course, tuple(place), caddie.Stroke(**stroke), tuple(wind))
 
 
-def green(course: tuple, place: list, wind: list) -> Optional[dict]:
-    """Slopes and line of a putt; None where the ball is not to be putted."""
-    if not caddie.is_putt(course, tuple(place)):
-        return None
-    return caddie.green(course, tuple(place), tuple(wind))
+def slopes(course: tuple, place: list, wind: list) -> list:
+    """Slopes around a putt."""
+    return caddie.slopes(course, tuple(place))
+
+
+def line(course: tuple, place: list, wind: list) -> list:
+    """Path of the putt that holes."""
+    return caddie.line(course, tuple(place), tuple(wind))
 
 
 def choose(course: tuple, place: list, wind: list) -> dict:
@@ -87,7 +90,7 @@ def choose(course: tuple, place: list, wind: list) -> dict:
     return caddie.choose(course, tuple(place), tuple(wind))._asdict()
 
 
-ANSWERS = {'predict': predict, 'green': green, 'choose': choose}
+ANSWERS = {'predict': predict, 'slopes': slopes, 'line': line, 'choose': choose}
 
 
 def main() -> None:

@@ -132,8 +132,8 @@ export class GolfView {
     this.changed = true;
   }
 
-  // Arrows down the slope of a green, rows of x, y, z and the slope along x and y; and the line that holes.
-  readGreen({ slopes, line }) {
+  // Arrows down the slope of a green: rows of x, y, z and the slope along x and y.
+  showSlopes(slopes) {
     this.hideGreen();
     const arrow = new THREE.Shape([[0.5, 0], [0.02, 0.3], [0.02, 0.1], [-0.5, 0.1], [-0.5, -0.1], [0.02, -0.1], [0.02, -0.3]].map((p) => new THREE.Vector2(...p)));
     const material = new THREE.MeshBasicMaterial({ color: 0xffffff, transparent: true, opacity: 0.72, depthWrite: false, toneMapped: false, polygonOffset: true, polygonOffsetFactor: -6, polygonOffsetUnits: -12 });
@@ -152,10 +152,14 @@ export class GolfView {
     this.arrows.frustumCulled = false;
     this.arrows.renderOrder = 2;
     this.scene.add(this.arrows);
-    if (line?.length) {
-      this.line = new Ribbon(this.scene, { color: 0x9be7ff, most: Math.max(8, line.length + 2), opacity: 0.95 });
-      for (const p of line) this.line.add(p[0], p[1], p[2] + 0.01);
-    }
+    this.changed = true;
+  }
+
+  // The line that holes, rows of x, y, z.
+  showLine(rows) {
+    this.line?.close();
+    this.line = new Ribbon(this.scene, { color: 0x9be7ff, most: rows.length + 8, opacity: 0.95 });
+    for (const [x, y, z] of rows) this.line.add(x, y, z + 0.01);
     this.changed = true;
   }
 
