@@ -20,7 +20,7 @@ that other sites make, where it comes from. What is foreign is refused, websocke
 
 from typing import Callable
 
-LOCAL = ('127.0.0.1', 'localhost', '[::1]')
+LOCAL = ('127.0.0.1', 'localhost', '::1')
 ANY = ('0.0.0.0', '::', '')  # addresses that mean all of a machine's
 
 

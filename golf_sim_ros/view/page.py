@@ -32,6 +32,7 @@ from ..shot_input.units import UNITS
 THREE = scene.Scene  # its import registers the library that draws, which our component imports
 PATIENCE = 0.15  # s without a change after which a prediction is asked for
 MOST_PUTT = 9.0  # m/s
+SHORT = 20.0  # m below which distances are told in feet, or to a decimetre
 STYLE = """
 .nicegui-content{padding:0}
 .strike{position:absolute;right:16px;bottom:16px;width:252px;z-index:3;gap:0;
@@ -336,17 +337,20 @@ def club_label(name: str, units: str) -> str:
 
 def told(answer: dict, units: str) -> str:
     """Put a prediction into words."""
-    length = UNITS[units].length
 
-    def show(meters: float, digits: int = 0) -> str:
-        return f'{meters / length.size:.{digits}f} {length.name}'
+    def show(meters: float) -> str:
+        small = meters < SHORT
+        name, size = {('golf', True): ('ft', 0.3048), ('golf', False): ('yd', 0.9144)}.get(
+            (units, small), ('m', 1.0)
+        )
+        return f'{meters / size:.{int(small)}f} {name}'
 
     ends = {'water': 'in the water', 'out_of_bounds': 'out of bounds', 'holed': 'in the hole'}
     end = ends.get(answer['status'], answer['lie'].replace('_', ' '))
     if answer['status'] != 'at_rest' or answer['to_hole'] is None:
         return f'{show(answer["total"])}, {end}'
     left = answer['to_hole']
-    return f'{show(answer["total"])}, {end}, {show(left, 1 if left < 20.0 else 0)} left'
+    return f'{show(answer["total"])}, {end}, {show(left)} left'
 
 
 COLUMNS = [

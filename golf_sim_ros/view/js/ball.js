@@ -44,7 +44,7 @@ export class Ribbon {
       transparent: true,
       depthWrite: false,
       side: THREE.DoubleSide,
-      uniforms: { color: { value: new THREE.Color(color) }, opacity: { value: opacity }, dashes: { value: dashes }, width: { value: 1 } },
+      uniforms: { color: { value: new THREE.Color(color).convertLinearToSRGB() }, opacity: { value: opacity }, dashes: { value: dashes }, width: { value: 1 } },
       vertexShader: `
         attribute vec3 tangent3; attribute vec2 side; uniform float width; varying vec2 vSide;
         void main() {
@@ -121,7 +121,7 @@ export class Ribbon {
 
   fade() {
     this.material.uniforms.opacity.value *= 0.42;
-    this.material.uniforms.color.value.set(0xffffff);
+    this.material.uniforms.color.value.setRGB(1, 1, 1);
   }
 
   close() {

@@ -136,12 +136,12 @@ export class GolfView {
   showSlopes(slopes) {
     this.hideGreen();
     const arrow = new THREE.Shape([[0.5, 0], [0.02, 0.3], [0.02, 0.1], [-0.5, 0.1], [-0.5, -0.1], [0.02, -0.1], [0.02, -0.3]].map((p) => new THREE.Vector2(...p)));
-    const material = new THREE.MeshBasicMaterial({ color: 0xffffff, transparent: true, opacity: 0.72, depthWrite: false, toneMapped: false, polygonOffset: true, polygonOffsetFactor: -6, polygonOffsetUnits: -12 });
+    const material = new THREE.MeshBasicMaterial({ color: 0xffffff, transparent: true, opacity: 0.62, depthWrite: false, toneMapped: false, polygonOffset: true, polygonOffsetFactor: -6, polygonOffsetUnits: -12 });
     this.arrows = new THREE.InstancedMesh(new THREE.ShapeGeometry(arrow), material, slopes.length);
     const place = new THREE.Object3D(), color = new THREE.Color();
     place.up.set(0, 0, 1);
     slopes.forEach(([x, y, z, a, b], n) => {
-      const steep = Math.hypot(a, b), size = 0.16 + Math.min(0.34, 7 * steep);
+      const steep = Math.hypot(a, b), size = 0.14 + Math.min(0.26, 6 * steep);
       place.position.set(x, y, z + 0.02);
       place.rotation.set(0, 0, Math.atan2(-b, -a));
       place.scale.set(size, 0.55 * size, 1);
