@@ -74,7 +74,7 @@ async def rounds(game: Any, options: Any) -> int:
             await game.go_on()
             session.course = None
     finally:
-        worker.close()
+        await worker.ended()
 
 
 def tee_off(session: Session, units: str) -> None:

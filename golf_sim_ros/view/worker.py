@@ -56,6 +56,12 @@ class Worker:
         if self.process is not None and self.process.returncode is None:
             self.process.kill()
 
+    async def ended(self) -> None:
+        """End the child, and wait until it is gone."""
+        self.close()
+        if self.process is not None:
+            await self.process.wait()
+
 
 async def started() -> asyncio.subprocess.Process:
     """Start a child process that answers."""
