@@ -8,7 +8,7 @@
 # make fuzz    random scenes, malformed and extreme messages, broken files: what stops the sim; FUZZ_ARGS='--scenes 2000'
 #              and FUZZ_FILES_ARGS='--count 20000 --kinds courses' for longer
 # make docs    docs/ and the docstrings as HTML: build/docs/html/index.html; in an environment of its own, .venv_docs
-# make lint    flake8 and ruff, there, too
+# make lint    flake8, ruff, pydocstyle and mypy, there, too
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #
 # Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
@@ -58,7 +58,10 @@ docs: docs_environment
 
 lint: docs_environment
 	@$(DOCS_VENV)/bin/python -m flake8
+	@$(DOCS_VENV)/bin/python -m pydocstyle golf_sim_ros
 	@$(DOCS_VENV)/bin/ruff check
+	@$(DOCS_VENV)/bin/ruff format --check
+	@$(DOCS_VENV)/bin/python -m mypy
 
 # Needs neither ROS nor numba. Made anew where setup.py is newer.
 docs_environment: $(DOCS_VENV)/made

@@ -47,6 +47,19 @@ WHEELS = [
     'rosgraph-msgs',
 ]
 
+# flake8 with the plugins of ament_flake8. The layout of ruff changes from one 0.x to the next.
+LINTERS = [
+    'flake8',
+    'flake8-blind-except',
+    'flake8-builtins',
+    'flake8-class-newline',
+    'flake8-comprehensions',
+    'flake8-deprecated',
+    'flake8-docstrings',
+    'flake8-import-order',
+    'flake8-quotes',
+]
+
 # Without numba all works, many balls and batches slowly: it is asked for only where it comes as a
 # wheel.
 NUMBA = (
@@ -77,7 +90,7 @@ setup(
     maintainer_email='maintainers@golf-sim-ros.example.org',
     python_requires='>=3.10',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={f'{PACKAGE}.view': ['*.js', 'js/*.js']},
+    package_data={PACKAGE: ['py.typed'], f'{PACKAGE}.view': ['*.js', 'js/*.js']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (SHARE, ['package.xml']),
@@ -103,7 +116,7 @@ setup(
         'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'docs': ['sphinx>=7.2', 'myst-parser', 'sphinx-rtd-theme'],
-        'lint': ['flake8', 'ruff'],
+        'lint': [*LINTERS, 'mypy', 'pydocstyle', 'ruff==0.17.*'],
         'test': [
             'pytest',
             'pytest-xdist',

@@ -12,7 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The simulator, the wind and, if wanted, RViz: ``ros2 launch golf_sim_ros golf.launch.py rviz:=true``.
+"""The simulator, the wind and, if wanted, RViz.
+
+``ros2 launch golf_sim_ros golf.launch.py rviz:=true`` starts them.
 
 An argument that is left out is not passed to the nodes, so it never overrides a params file.
 """
@@ -20,6 +22,7 @@ An argument that is left out is not passed to the nodes, so it never overrides a
 from pathlib import Path
 from typing import List
 
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
 from launch.substitutions import SubstitutionFailure, TextSubstitution
@@ -27,8 +30,6 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 import yaml
-
-from launch import LaunchDescription
 
 # Arguments that are parameters of the simulator; their defaults are in config/sim.yaml.
 TEXTS = {
@@ -102,11 +103,11 @@ def nodes(context):
 
 
 def simulator(given, common):
-    """The node `golf_sim`; when it ends, all do."""
+    """Describe the node `golf_sim`; when it ends, all do."""
     parameters = {}
     for name in (*TEXTS, *LISTS, *NUMBERS, 'publish_clock'):
         if given[name]:
-            # None: as YAML reads it
+            # a number is read as YAML has it
             kind = str if name in TEXTS else List[str] if name in LISTS else None
             value = (
                 listed(name, given[name]) if name in LISTS else TextSubstitution(text=given[name])
@@ -124,7 +125,7 @@ def simulator(given, common):
 
 
 def wind(context, given, common):
-    """The node `wind_generator`."""
+    """Describe the node `wind_generator`."""
     files = params_files(given, 'params_file', 'wind_params', 'wind_params_file')
     return Node(
         package='golf_sim_ros',
@@ -137,7 +138,7 @@ def wind(context, given, common):
 
 
 def rviz(context, given, common):
-    """RViz with its view of the game; RuntimeError where it is not installed."""
+    """Describe RViz with its view of the game; RuntimeError where it is not installed."""
     try:
         ExecutableInPackage(package='rviz2', executable='rviz2').perform(context)
     except (LookupError, SubstitutionFailure):  # no package, no program in it

@@ -15,8 +15,7 @@
 """What theory says: closed forms and independent equations, none of them taken from the package.
 
 A solid sphere has k = I / (m r^2) = 2/5. In formulas of contact, `spin` is the speed r w that the
-surface of the ball has by its spin: positive as in rolling forward, so a rolling ball has v =
-spin.
+surface of the ball has by its spin: positive as in rolling forward; in rolling v = spin.
 """
 
 from math import atan, cos, cosh, exp, expm1, log, log1p, pi, sin, sqrt, tanh
@@ -31,7 +30,7 @@ K = 0.4  # of a uniform sphere
 
 
 def vacuum_flight(speed, angle):
-    """Range, height and time over level ground: v^2 sin 2a / g, (v sin a)^2 / 2g, 2 v sin a / g."""
+    """Range, height and time over level ground: v^2 sin 2a / g, (v sin a)^2 / 2g, 2v sin a / g."""
     up = speed * sin(angle)
     return speed * speed * sin(2 * angle) / G, up * up / (2 * G), 2 * up / G
 
@@ -74,7 +73,10 @@ def quadratic_coast(speed, rate, time):
 
 
 def spin_after(spin, path):
-    """Spin left after a path of that length in air of 1.18 kg/m^3: d ln w / ds = -2e-5 / r (Smits, Smith)."""
+    """Spin left after a path of that length in air of 1.18 kg/m^3.
+
+    d ln w / ds = -2e-5 / r (Smits, Smith).
+    """
     return spin * exp(-2e-5 * path / RADIUS)
 
 
@@ -96,12 +98,10 @@ def lift_coefficient(s, re):
 
 
 def golf_ball_rates(density, viscosity):
-    """Right-hand side y' = f(t, y) of a golf ball's flight in still air.
+    """Right-hand side f(t, y) of a golf ball's flight in still air, y' = f.
 
-    Y is position, velocity, spin.
-
-    Drag against the velocity, lift along spin x velocity by the spin across the path, spin decay
-    after Smits and Smith 1994.
+    y is position, velocity, spin. Drag against the velocity, lift along spin x velocity by the
+    spin across the path, spin decay after Smits and Smith 1994.
     """
     push = density * pi * RADIUS * RADIUS / (2 * MASS)
     decay = 2e-5 * density / 1.18 / RADIUS
@@ -145,10 +145,10 @@ def height_after(height, e, bounces):
 
 
 def gripping_bounce(v, spin, ex):
-    """Velocity and spin after a bounce with grip: slip u = v - spin becomes -ex u, v + k spin is kept.
+    """Velocity and spin after a bounce with grip: slip u = v - spin becomes -ex u.
 
-    ex = 0 leaves rolling, 5/7 v + 2/7 spin; ex = 1 is Garwin's superball (Am. J. Phys. 37 (1969)
-    88).
+    v + k spin is kept. ex = 0 leaves rolling, 5/7 v + 2/7 spin; ex = 1 is Garwin's superball (Am.
+    J. Phys. 37 (1969) 88).
     """
     return (
         ((1 - K * ex) * v + K * (1 + ex) * spin) / (1 + K),
@@ -157,7 +157,7 @@ def gripping_bounce(v, spin, ex):
 
 
 def slipping_bounce(v, spin, mu, e, approach):
-    """The same when the friction mu (1 + e) vn is too weak to stop the slip (Coulomb)."""
+    """Return the same when the friction mu (1 + e) vn is too weak to stop the slip (Coulomb)."""
     loss = mu * (1 + e) * approach * (1 if v > spin else -1)
     return v - loss, spin + loss / K
 
@@ -189,7 +189,9 @@ def stimp_distance(feet):
 
 
 def break_of_putt(side, decel, way, left):
-    """Sideways deviation of a putt after `way`, with `left` still to go, by a small `side` acceleration.
+    """Sideways deviation of a putt after `way`, with `left` still to go, by a `side` acceleration.
+
+    The acceleration is small.
 
     Friction acts along the velocity: y'' = B - (a / v) y'. With v^2 = 2 a (distance left) this
     integrates to B/a (D/2 - R/2 ln((D + R) / R)).
@@ -198,7 +200,9 @@ def break_of_putt(side, decel, way, left):
 
 
 def sliding_ball_rates(mu, tilt):
-    """y' = f(t, y) of a ball sliding on a plane that falls by the angle `tilt` towards +x.
+    """Right-hand side f(t, y) of a ball sliding on a plane that falls by `tilt` towards +x.
+
+    `tilt` is an angle; y' = f.
 
     y is (x, y, u, v, p, q): place and velocity along the plane and the spin's components there,
     x down the slope. Coulomb friction mu g cos(tilt) acts against the slip.
@@ -216,7 +220,10 @@ def sliding_ball_rates(mu, tilt):
 
 
 def rolling_ball_rates(resistance, tilt):
-    """y' = f(t, y) of a ball rolling on such a plane, y = (x, y, u, v), braked by resistance times g cos."""
+    """Right-hand side f(t, y) of a ball rolling on such a plane.
+
+    y' = f, y = (x, y, u, v); the ball is braked by resistance times g cos.
+    """
 
     def rates(_, y):
         u, v = y[2:]

@@ -85,7 +85,7 @@ def name(path):
 
 
 def imports(path):
-    """(module's top-level name, whether the file cannot be imported without it), for each import."""
+    """Top-level name of each import, and whether the file cannot be imported without it."""
     found = set()
 
     def look(node, hard):
@@ -118,7 +118,7 @@ def manifest(kind):
 
 @pytest.fixture(scope='module')
 def setup():
-    """The arguments that setup.py calls setup() with."""
+    """Run setup.py: the arguments that setuptools gets."""
     with patch('setuptools.setup') as called, pytest.MonkeyPatch.context() as here:
         here.chdir(ROOT)
         runpy.run_path(str(ROOT / 'setup.py'))
@@ -205,7 +205,7 @@ def test_with_numpy_and_yaml_alone_it_imports(module):
 
 
 def without(missing, source):
-    """A Python that runs `source` where the modules `missing` are not installed."""
+    """Run `source` by a Python where the modules `missing` are not installed."""
     code = f'import sys; sys.modules.update(dict.fromkeys({sorted(missing)!r})); {source}'
     return subprocess.run(
         [sys.executable, '-W', 'ignore', '-c', code], cwd=ROOT, capture_output=True, text=True

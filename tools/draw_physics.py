@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Draws docs/physics.png and prints the tables of docs/physics.md: the laws against what was measured.
+"""Draw docs/physics.png and print the tables of docs/physics.md: laws against measurements.
 
 .venv/bin/python tools/draw_physics.py
 """
@@ -37,10 +37,10 @@ from golf_sim_ros.physics import (
 from golf_sim_ros.physics.effects.drag import DragLaw
 from golf_sim_ros.physics.effects.magnus import LiftLaw
 import matplotlib
+from matplotlib import pyplot as plt
 import numpy as np
 
 matplotlib.use('Agg')
-from matplotlib import pyplot as plt  # noqa: E402
 
 DOCS = Path(__file__).parents[1] / 'docs'
 LAWS = {
@@ -106,15 +106,14 @@ def print_runs():
     print('| shot | carry [yd] | from there [yd] |\n|---|---|---|')
     for label, material, *shot in RUNS:
         (end,) = simulate_many(ground(material), *strikes(*shot))
-        print(
-            f'| {label} | {end["carry"] / YARD:.1f} | {(end["position"][0] - end["carry"]) / YARD:.1f} |'
-        )
+        rolled = end['position'][0] - end['carry']
+        print(f'| {label} | {end["carry"] / YARD:.1f} | {rolled / YARD:.1f} |')
 
 
 def draw_flights(axes):
-    """Every club of the tour's table.
+    """Fly every club of the tour's table.
 
-    A dot where the table lands it, a tick at the table's apex.
+    A dot is where the table lands it, a tick at the table's apex.
     """
     table = rows('trackman_pga_2023.csv')
     velocities, spins = of_table('trackman_pga_2023.csv')
@@ -175,7 +174,10 @@ def draw_bounce(axes):
 
 
 def draw_putt(axes):
-    """A putt of 10 ft across a slope of 2 %, and the closed form of its break for a small slope."""
+    """Play a putt of 10 ft across a slope of 2 %; and the closed form of its break.
+
+    The form holds for a small slope.
+    """
     tilt, way, left = 0.02, 3.048, 0.45
     course = ground('green', (np.sin(np.arctan(tilt)), 0, np.cos(np.arctan(tilt))))
     brake = shipped()[0]['green']['rolling_resistance'] * 9.80665
@@ -195,7 +197,7 @@ def draw_putt(axes):
 
 
 def draw_errors(axes):
-    """The carry's error, club by club, of both of the tour's tables."""
+    """Carry's error, club by club, of both of the tour's tables."""
     for name in TABLES[:2]:
         carry = simulate_many(ground('fairway'), *of_table(name))['carry'] / YARD
         axes.plot(
@@ -210,7 +212,10 @@ def draw_errors(axes):
 
 
 def fastest_holed(aside, bounciness):
-    """Lowest speed [m/s] at the rim that escapes a hole in a level green, `aside` [m] off its centre."""
+    """Lowest speed [m/s] at the rim that escapes a hole in a level green.
+
+    The ball passes `aside` [m] of its centre.
+    """
     green = Material(name='green', **shipped()[0]['green'])._replace(
         restitution=Restitution(bounciness)
     )

@@ -71,7 +71,7 @@ def rows(name):
 
 
 def column(table, name):
-    """A column as numbers; nan where it is empty."""
+    """Return a column as numbers; nan where it is empty."""
     return np.array([float(row.get(name) or 'nan') for row in table])
 
 
@@ -95,7 +95,10 @@ cd, cl = drag_coefficient, lift_per_ratio
 
 
 def fly(laws, speed, launch, spin):
-    """Carry [yd], apex [yd] and landing angle [deg] of shots in still air of 25 degrees: RK4, all at once."""
+    """Carry [yd], apex [yd] and landing angle [deg] of shots in still air of 25 degrees.
+
+    By RK4, all at once.
+    """
     air = Air()
     push = 0.5 * density(air) * pi * RADIUS**2 / MASS
     thickness = density(air) / 1.18
@@ -193,9 +196,8 @@ def main():
     for name in TABLES:
         for label, errors in zip(FIGURES, table_errors(best, name)):
             if np.isfinite(errors).all():
-                print(
-                    f'{name} {label}: mean {np.abs(errors).mean():.2f}, worst {np.abs(errors).max():.2f}'
-                )
+                off = np.abs(errors)
+                print(f'{name} {label}: mean {off.mean():.2f}, worst {off.max():.2f}')
     errors, _ = point_errors(best)
     print(f'points: root mean square {np.sqrt((errors**2).mean()):.4f}')
 

@@ -12,7 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A drive, an approach and a putt over ROS 2, each hit with `shoot`, recorded and drawn: ``make play``."""
+"""A drive, an approach and a putt over ROS 2, each hit with `shoot`, recorded, drawn.
+
+``make play`` runs it.
+"""
 
 import json
 import os
@@ -63,7 +66,7 @@ def main():
 
 
 def keep_to_ourselves():
-    """Meet no other game: this machine only and, where the user has chosen none, a domain of our own."""
+    """Meet no other game: this machine only and, if none is chosen, a domain of our own."""
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 100))
     print(f'Playing on ROS_DOMAIN_ID={os.environ["ROS_DOMAIN_ID"]}', flush=True)
@@ -121,7 +124,9 @@ def putt(last):
 
 
 def enough(last, launch, most):
-    """Least number, up to `most`, for which `launch` of it, aimed at the hole, gets there in still air.
+    """Least number, up to `most`, for which `launch` of it, aimed at the hole, gets there.
+
+    In still air.
 
     Tried on the course without its hole, from where the `last` shot ended.
     """

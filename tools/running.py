@@ -40,7 +40,9 @@ class Failed(RuntimeError):
 
 @contextmanager
 def nodes(*more):
-    """The processes of `NODES` by name; they get SIGINT at the end, and must end with exit code 0.
+    """Start the processes of `NODES`: by name.
+
+    They get SIGINT at the end, and must end with exit code 0.
 
     `more` are further commands, sequences of a program's name and its arguments. They are stopped
     last.
@@ -96,7 +98,7 @@ class Spectator:
         self._wait(lambda: self.poses, FIRST_START, 'the ball to be on the tee')
 
     def result(self, number):
-        """Result of shot `number`, a dict, waited for if need be; numbers start at 1."""
+        """Wait for the result of shot `number`, a dict; numbers start at 1."""
         self._wait(lambda: len(self.results) >= number, PATIENCE, f'the result of shot {number}')
         return self.results[number - 1]
 

@@ -43,14 +43,14 @@ def table(name):
 
 
 def flown(name, **more):
-    """What becomes of a table's shots."""
+    """Play a table's shots: what becomes of them."""
     column = table(name)
     velocities = launched(column('ball_speed_mph') * MPH, column('launch_deg') * DEGREE)
     return play(velocities, column('spin_rpm') * RPM, **more)
 
 
 def play(velocities, backspin, air=None, **more):
-    """What becomes of shots on level turf."""
+    """Play shots on level turf: what becomes of them."""
     course = level(TURF) if air is None else level(TURF, air=air)
     spins = np.zeros((len(velocities), 3))
     spins[:, 1] = -backspin

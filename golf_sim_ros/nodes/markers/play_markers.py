@@ -15,19 +15,26 @@
 """The play as a handful of markers: balls, trails, last contacts, wind."""
 
 from collections import deque
+from collections.abc import Sequence
 
+from std_msgs.msg import Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from .course_markers import marker, points, put
-from ...physics import ground_height
+from ...physics import ground_height, World
 
-TRAIL, TRAILS = 300, 3000  # points at most of a trail, and of all,
+TRAIL = 300  # points at most of a trail
+TRAILS = 3000  # points at most of all trails,
 LEAST = 20  # but so many every trail may have
 CONTACTS = 20  # last contacts that are shown
-TRAIL_WIDTH, CONTACT_SIZE = 0.05, 0.15  # m
+TRAIL_WIDTH = 0.05  # m
+CONTACT_SIZE = 0.15  # m
 ARROW = (0.15, 0.4, 0.5)  # m: diameters of shaft and head, length of the head
 ARROW_HEIGHT = 10.0  # m over the tee, where wind is given
-BALL, PATH, HIT, AIR = (1.0, 1.0, 1.0), (1.0, 0.9, 0.2), (0.9, 0.3, 0.1), (0.3, 0.6, 1.0)
+BALL = (1.0, 1.0, 1.0)
+PATH = (1.0, 0.9, 0.2)
+HIT = (0.9, 0.3, 0.1)
+AIR = (0.3, 0.6, 1.0)
 
 
 class Trail:
@@ -36,17 +43,17 @@ class Trail:
     When full, every other place is dropped and from then on half as many are taken.
     """
 
-    def __init__(self, most):
+    def __init__(self, most: int) -> None:
         self.most = most
         self.clear()
 
-    def clear(self):
+    def clear(self) -> None:
         """Drop all places."""
-        self.places = []
+        self.places: list[tuple[float, ...]] = []
         self.every = 1
         self.seen = 0
 
-    def add(self, place):
+    def add(self, place: Sequence[float]) -> None:
         """Add `place`, unless it is one that is left out."""
         if self.seen % self.every == 0:
             self.places.append(tuple(place))
@@ -59,16 +66,21 @@ class Trail:
 class Scene:
     """Trails and last contacts of the play in `world`, as markers."""
 
-    def __init__(self, world):
+    def __init__(self, world: World) -> None:
         most = max(LEAST, min(TRAIL, TRAILS // len(world.names)))
         self.trails = {name: Trail(most) for name in world.names}
-        self.contacts = deque(maxlen=CONTACTS)
+        self.contacts: deque[tuple] = deque(maxlen=CONTACTS)
         self.size = 2 * world.course.ball.radius
         x, y = world.course.tee
-        self.place = x, y, ground_height(world.course, x, y)[0]
+        found = ground_height(world.course, x, y)
+        assert found is not None, 'a course is refused that has no ground under its tee'
+        self.place = x, y, found[0]
 
-    def markers(self, head, world, wind):
-        """MarkerArray of now: `world` has the balls, `wind` [m/s] an arrow, a metre for each m/s."""
+    def markers(self, head: Header, world: World, wind: Sequence[float]) -> MarkerArray:
+        """Make the MarkerArray of now.
+
+        `world` has the balls, `wind` [m/s] an arrow, a metre for each m/s.
+        """
         found = [self.hits(), self.arrow(wind)]
         for number, (name, trail) in enumerate(self.trails.items()):
             ball = marker('ball', number, Marker.SPHERE, (self.size,) * 3, BALL)
@@ -80,13 +92,13 @@ class Scene:
             made.header = head
         return MarkerArray(markers=found)
 
-    def hits(self):
+    def hits(self) -> Marker:
         """Spheres at the last contacts."""
         made = marker('contacts', 0, Marker.SPHERE_LIST, (CONTACT_SIZE,) * 3, HIT)
         made.points = points(self.contacts)
         return hidden(made, not self.contacts)
 
-    def arrow(self, wind):
+    def arrow(self, wind: Sequence[float]) -> Marker:
         """Arrow to where the air goes."""
         x, y, z = self.place
         z += ARROW_HEIGHT
@@ -95,8 +107,8 @@ class Scene:
         return hidden(made, not any(wind))
 
 
-def hidden(made, empty):
-    """The marker `made`, or one that takes it away where it is `empty`."""
+def hidden(made: Marker, empty: bool) -> Marker:
+    """Make a marker one that takes it away, where it is `empty`; return it."""
     if empty:
         made.action = Marker.DELETE
         made.points = []

@@ -14,9 +14,9 @@
 
 """Sliding, rolling and pivoting on flat ground, in closed form (see coulomb_deceleration.py).
 
-With k the moment of inertia over m r^2 and N the press, slip u obeys u' = g_t - (1 + 1/k) mu N
-u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of sliding is v = v0 + g_t t/(1
-+ k) + k/(1 + k) (u - u0).
+With k the moment of inertia over m r^2 and N the press, slip u obeys
+u' = g_t - (1 + 1/k) mu N u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of
+sliding is v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
 """
 
 from math import inf
@@ -25,6 +25,7 @@ from .contact_state import in_micro_bounces
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, Vector
 from ..mechanics import coulomb_deceleration
 from ..mechanics.impulse import slip
 from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, sub, ZERO
@@ -41,15 +42,20 @@ from ..trajectory.segment import fit_segment, position
 LONGEST_SEGMENT = 10.0  # s
 # s: a shorter segment must be more exact, for velocity errs by position's error over time
 UNHURRIED = 0.1
-LEAST_PATH_ERROR = 1e-12  # m: no curve is asked to be nearer than this to a closed form,
-RELATIVE_ROUNDING = 1e-15  # or than this share of its distance from the origin
+# No curve is asked to be nearer to a closed form than LEAST_PATH_ERROR, or than a share of
+# RELATIVE_ROUNDING of its distance from the origin.
+LEAST_PATH_ERROR = 1e-12  # m
+RELATIVE_ROUNDING = 1e-15
+
+# Velocity at the start, less the share of slip; acceleration; share of slip in the velocity.
+Coast = tuple[Vector, Vector, float]
 
 
 @shared
-def plane_segment(land, ball, now):
-    """Plan a segment of sliding or rolling on a plane, up to a stop or as far as a Bezier curve is exact.
+def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
+    """Plan a segment of sliding or rolling on a plane.
 
-    Writes curve, ending.
+    It goes up to a stop, or as far as a Bezier curve is exact. Writes curve, ending.
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
@@ -105,7 +111,7 @@ def plane_segment(land, ball, now):
 
 
 @kernel
-def glide_end(motion, horizon):
+def glide_end(motion: coulomb_deceleration.Braked, horizon: float) -> float:
     """Parameter at the stop, if it comes within `horizon` [s], else at `horizon`."""
     if (
         coulomb_deceleration.stops(motion)
@@ -116,7 +122,9 @@ def glide_end(motion, horizon):
 
 
 @kernel
-def glide_at(motion, coast, q):
+def glide_at(
+    motion: coulomb_deceleration.Braked, coast: Coast, q: float
+) -> tuple[float, Vector, Vector, Vector]:
     """Time, displacement, velocity and slip (or rolling velocity) at the parameter `q`."""
     time, u, way = coulomb_deceleration.after(motion, q)
     start, drift, share = coast
@@ -126,14 +134,23 @@ def glide_at(motion, coast, q):
 
 
 @kernel
-def glide_error(ball, motion, coast, q):
+def glide_error(
+    ball: BallRecord, motion: coulomb_deceleration.Braked, coast: Coast, q: float
+) -> float:
     """Distance of the segment's curve from the closed form at the parameter `q`."""
     time, way, _, _ = glide_at(motion, coast, q)
     return length(sub(sub(position(ball, time), load(ball['origin'])), way))
 
 
 @kernel
-def fit_glide(land, ball, motion, coast, q, pivot):
+def fit_glide(
+    land: Land,
+    ball: BallRecord,
+    motion: coulomb_deceleration.Braked,
+    coast: Coast,
+    q: float,
+    pivot: tuple[float, float],
+) -> None:
     """Fit the segment to the closed form up to the parameter `q`. Writes curve.
 
     `pivot` is the spin about the normal, and its deceleration.

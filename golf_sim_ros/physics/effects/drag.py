@@ -17,8 +17,11 @@
 from math import pi
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
+from .protocol import Flow
+from ..geometry.surfaces import Ground
 from ..jit import kernel
+from ..kernel_types import CourseRecord, Vector
 from ..mechanics.vector import dot, scale, ZERO
 from ..properties import air
 
@@ -61,12 +64,10 @@ class Drag(NamedTuple):
 
 
 @kernel
-def drag_coefficient(law, ss, rr, flow=1.0):
+def drag_coefficient(law: DragLaw, ss: float, rr: float, flow: float = 1.0) -> float:
     """Drag coefficient at the squares of spin ratio, `ss`, and Reynolds number, `rr`.
 
-    See `DragLaw`.
-
-    `ss` may be given times `flow`: that spares a division.
+    See `DragLaw`. `ss` may be given times `flow`: that spares a division.
     """
     # Most of the time of a flight is spent here: squares need no roots, and quotients are
     # independent.
@@ -85,7 +86,7 @@ def drag_coefficient(law, ss, rr, flow=1.0):
 
 
 @protocol.acceleration.register(Drag)
-def _acceleration(effect, flow):
+def _acceleration(effect: Drag, flow: Flow) -> Vector:
     vv = dot(flow.velocity, flow.velocity)
     if vv < NO_FLOW or effect.push == 0.0:
         return ZERO
@@ -95,8 +96,11 @@ def _acceleration(effect, flow):
 
 
 @protocol.longest_step.register(Drag)
-def turning_about(effect, ground, flow, force, wanted):
-    """Longest step [s] that can't overlook where drag reverses, as where a throw straight up does."""
+def turning_about(effect: Drag, ground: Ground, flow: Flow, force: Vector, wanted: float) -> float:
+    """Longest step [s] that can't overlook where drag reverses.
+
+    That of a throw straight up does.
+    """
     return (
         protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted)
         if effect.push > 0.0
@@ -104,28 +108,28 @@ def turning_about(effect, ground, flow, force, wanted):
     )
 
 
-def dynamic_push(course):
+def dynamic_push(course: CourseRecord) -> float:
     """Factor rho A / (2 m) [1/m] of dynamic pressure, of the course's ball in the course's air."""
     ball = course.ball
     return 0.5 * air.density(course.air) * pi * ball.radius * ball.radius / ball.mass
 
 
-def reynolds_number(course):
+def reynolds_number(course: CourseRecord) -> float:
     """Reynolds number of the course's ball at 1 m/s through the course's air, by its diameter."""
     return 2.0 * course.ball.radius * air.density(course.air) / air.viscosity(course.air)
 
 
-def record(scene):
+def record(scene: Scene) -> Drag:
     """Record for `scene`."""
     course = scene.course
     return Drag(dynamic_push(course), course.ball.radius, reynolds_number(course), DragLaw())
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> Drag:
     """Record that does nothing: a course without air compiles nothing."""
     return record(scene)._replace(push=0.0)

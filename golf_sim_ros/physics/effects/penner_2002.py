@@ -16,8 +16,9 @@
 
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from .turf import ANGLE, idle, SPEED, steepness, TILT, tilted  # noqa: F401  (idle where turf is)
+from ..kernel_types import Vector
 from ..mechanics.vector import length, tangential
 
 INSTEAD_OF = ('turf',)
@@ -35,13 +36,15 @@ class Penner2002(NamedTuple):
 
 
 @protocol.contact_normal.register(Penner2002)
-def _contact_normal(effect, normal, velocity, softness):
+def _contact_normal(
+    effect: Penner2002, normal: Vector, velocity: Vector, softness: float
+) -> Vector:
     across = tangential(velocity, normal)
     if softness == 0.0 or length(across) == 0.0:
         return normal
     return tilted(normal, across, softness * effect.rate * steepness(velocity, normal))
 
 
-def record(scene):
+def record(scene: Scene) -> Penner2002:
     """Record for `scene`."""
     return Penner2002()

@@ -12,21 +12,22 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Soft turf: the ball pushes up a bank, so the contact normal tilts towards where it came from.
+r"""Soft turf: the ball pushes up a bank, so the contact normal tilts towards where it came from.
 
 ::
 
-        v \\      ^ n'            n   normal of the ground
-           \\    /  ^ n           n'  normal that the ball feels
-            \\  / t |             t   tilt
-        ________\\|_|________
+        v \      ^ n'            n   normal of the ground
+           \    /  ^ n           n'  normal that the ball feels
+            \  / t |             t   tilt
+        ________\|_|________
 """
 
 from math import acos, cos, exp, pi, sin
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from ..jit import kernel
+from ..kernel_types import Vector
 from ..mechanics.vector import add, dot, length, scale, tangential
 
 # Penner, Can. J. Phys. 80 (2002) 931-940: 15.4 degrees at 18.6 m/s and 44.4 degrees from the
@@ -53,7 +54,7 @@ class Turf(NamedTuple):
 
 
 @protocol.contact_normal.register(Turf)
-def _contact_normal(effect, normal, velocity, softness):
+def _contact_normal(effect: Turf, normal: Vector, velocity: Vector, softness: float) -> Vector:
     across = tangential(velocity, normal)
     if softness * effect.rate == 0.0 or length(across) == 0.0:
         return normal
@@ -64,36 +65,39 @@ def _contact_normal(effect, normal, velocity, softness):
 
 
 @kernel
-def saturated(tilt, most):
-    """Saturated tilt, `most` tanh(`tilt` / `most`), to an absolute rounding error, in half its time."""
+def saturated(tilt: float, most: float) -> float:
+    """Saturated tilt: `most` tanh(`tilt` / `most`), to an absolute rounding error.
+
+    It takes half the time of tanh.
+    """
     q = exp(-2.0 * tilt / most)
     return most * (1.0 - q) / (1.0 + q)
 
 
 @kernel
-def steepness(velocity, normal):
+def steepness(velocity: Vector, normal: Vector) -> float:
     """Speed times angle from the `normal`, which Penner's tilt is proportional to [m/s rad]."""
     speed = length(velocity)
     return speed * acos(min(max(-dot(velocity, normal), 0.0) / speed, 1.0))
 
 
 @kernel
-def tilted(normal, across, tilt):
-    """Normal that is `normal` turned by `tilt` [rad] against `across`, a motion along the ground."""
+def tilted(normal: Vector, across: Vector, tilt: float) -> Vector:
+    """Turn `normal` by `tilt` [rad] against `across`, a motion along the ground."""
     return add(scale(cos(tilt), normal), scale(-sin(tilt) / length(across), across))
 
 
-def record(scene):
+def record(scene: Scene) -> Turf:
     """Record for `scene`."""
     return Turf()
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, hard ground, or ''."""
     soft = any(shape.material.softness > 0 for shape in scene.course.ground)
     return '' if soft else 'all ground is hard'
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> Turf:
     """Record that tilts nothing: a course of hard ground compiles nothing."""
     return Turf(rate=0.0)

@@ -14,6 +14,8 @@
 
 """Impact with the ground: the impulse, and whether the ball flies, slides or rolls afterwards."""
 
+import numpy as np
+
 from . import contact_set
 from .ball_impact import LEAST_LOGGED_APPROACH, resolve_contact_set, resume_motion
 from .collision_log import log_impact
@@ -31,11 +33,12 @@ from ..contact.contact_state import (
 from ..effects import effective_normal, gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, MaterialRecord, Vector, WorkRecord
 from ..mechanics.impulse import apply_impulse, ContactProperties, impulse
 from ..mechanics.vector import add_scaled, dot, length, load, scale, store, sub, tangential, ZERO
 from ..properties.material import restitution
 from ..state.ball import FLIGHT
-from ..state.events import BOUNCE
+from ..state.events import BOUNCE, Log
 from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import record_landing
@@ -56,7 +59,9 @@ LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
 @shared
-def resolve_ground_impact(land, balls, i, now, work, log):
+def resolve_ground_impact(
+    land: Land, balls: np.ndarray, i: int, now: float, work: WorkRecord, log: Log
+) -> None:
     """Resolve the impact of ball `i` with its target. Writes ball, work; logs the impact.
 
     Other balls that touch it take part in the impact and become involved.
@@ -116,7 +121,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
 
 
 @kernel
-def apply_bounce(land, ball, normal, material):
+def apply_bounce(land: Land, ball: BallRecord, normal: Vector, material: MaterialRecord) -> None:
     """Apply the impulse of an impact with a surface of `normal`. Writes velocity and spin."""
     before = load(ball['velocity'])
     felt = effective_normal(land.effects, normal, before, material['softness'])
@@ -137,7 +142,14 @@ def apply_bounce(land, ball, normal, material):
 
 
 @kernel
-def choose_after_impact(land, ball, now, impact, normal, material):
+def choose_after_impact(
+    land: Land,
+    ball: BallRecord,
+    now: float,
+    impact: tuple[bool, float, float],
+    normal: Vector,
+    material: MaterialRecord,
+) -> None:
     """Choose between flight and contact after an impact.
 
     Writes phase, step, contact, micro_bounces, velocity, spin.
@@ -172,17 +184,19 @@ def choose_after_impact(land, ball, now, impact, normal, material):
 
 
 @kernel
-def effective_restitution(land, ball, normal, material, rebound):
+def effective_restitution(
+    land: Land, ball: BallRecord, normal: Vector, material: MaterialRecord, rebound: float
+) -> float:
     """Constant restitution with which the remaining bounces would last as long in all.
 
-    1 to follow them.
+    1 to follow them one by one.
 
     Restitution changes from e0 with the approach, by its own law and as soft turf throws a fast
-    ball up. To first order the sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 -
-    e0^2)): that of a constant restitution, the one at an approach of v / (1 + e0). Where that is
-    much more than e0, first order does not do, and bounces are followed one by one. A turf law
-    that does not fade with the approach has no such sum at all: of the very last bounces it is
-    left out.
+    ball up. To first order the sum of v, e v, ... is
+    v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): that of a constant restitution, the one at an
+    approach of v / (1 + e0). Where that is much more than e0, first order does not do, and bounces
+    are followed one by one. A turf law that does not fade with the approach has no such sum at
+    all: of the very last bounces it is left out.
     """
     if rebound <= LEAST_SPEED:
         return 0.0
@@ -200,7 +214,7 @@ def effective_restitution(land, ball, normal, material, rebound):
 
 
 @kernel
-def wall_rebound(land, ball):
+def wall_rebound(land: Land, ball: BallRecord) -> float:
     """Approach speed [m/s] up to which a wall has restitution 1."""
     if surfaces.hollow(land.ground, ball['target']) == 0.0:
         return WALL_REBOUND
@@ -208,11 +222,11 @@ def wall_rebound(land, ball):
 
 
 @kernel
-def micro_bounce_threshold(land, ball):
-    """Rebound [m/s] below which the remaining bounces are summed as micro-bounces: less for a fast ball.
+def micro_bounce_threshold(land: Land, ball: BallRecord) -> float:
+    """Rebound [m/s] below which the remaining bounces are summed as micro-bounces.
 
-    The air acts on their sum at once, a little early: an error of position in proportion to the
-    square of the speed and to the square of the time that they last.
+    It is less for a fast ball. The air acts on their sum at once, a little early: an error of
+    position in proportion to the square of the speed and to the square of the time that they last.
     """
     return max(
         land.limits.settle / (1.0 + length(load(ball['velocity'])) / SLOW_FOR_AIR),
@@ -221,7 +235,7 @@ def micro_bounce_threshold(land, ball):
 
 
 @shared
-def cross_border(land, ball, now):
+def cross_border(land: Land, ball: BallRecord, now: float) -> None:
     """Find the support of a ball that has reached a border in plan.
 
     Writes motion, phase, step, contact.

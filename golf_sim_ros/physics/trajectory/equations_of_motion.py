@@ -12,11 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Equations of motion: of a ball in flight, and of one in contact with ground which is not flat."""
+"""Equations of motion: of a ball in flight, and of one on ground which is not flat."""
 
 from ..effects import flight_rates, gravity_at, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, MaterialRecord, ModelRecord, Vector
 from ..mechanics.impulse import slip
 from ..mechanics.vector import (
     add,
@@ -37,7 +38,9 @@ LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
 
 
 @kernel
-def rates(model, ball, position, velocity, spin):
+def rates(
+    model: ModelRecord, ball: BallRecord, position: Vector, velocity: Vector, spin: Vector
+) -> tuple[Vector, Vector]:
     """Acceleration and angular acceleration of a ball, in flight, under water or in contact."""
     if ball['water'] > 0:
         return sinking(model.effects, position, velocity), ZERO
@@ -48,13 +51,13 @@ def rates(model, ball, position, velocity, spin):
 
 
 @kernel
-def material_under(land, ball):
+def material_under(land: Land, ball: BallRecord) -> MaterialRecord:
     """Row of the material that the ball is in contact with."""
     return land.materials[ball['material']]
 
 
 @kernel
-def rolling_deceleration(material, press, needed):
+def rolling_deceleration(material: MaterialRecord, press: float, needed: float) -> float:
     """Deceleration [m/s^2] of a rolling ball: rolling resistance, as far as grip allows.
 
     Friction has to brake the ball, and to turn it as it speeds up downhill, for which it is
@@ -68,20 +71,27 @@ def rolling_deceleration(material, press, needed):
 
 
 @kernel
-def rolling_needs(downhill, inertia):
+def rolling_needs(downhill: Vector, inertia: float) -> float:
     """Friction over mass [m/s^2] that turns a ball as it rolls down a plane without slip."""
     return inertia / (1.0 + inertia) * length(downhill)
 
 
 @kernel
-def unwinding(material, press, radius, inertia):
+def unwinding(material: MaterialRecord, press: float, radius: float, inertia: float) -> float:
     """Angular deceleration [rad/s^2] of spin about the normal by pivot friction."""
     return material['pivot_friction'] * press / (inertia * radius * radius)
 
 
 @kernel
-def pivoting(ball, material, press, drive, radius, inertia):
-    """Angular deceleration [rad/s^2] by pivot friction, with the sign of the spin about the normal.
+def pivoting(
+    ball: BallRecord,
+    material: MaterialRecord,
+    press: float,
+    drive: float,
+    radius: float,
+    inertia: float,
+) -> float:
+    """Angular deceleration [rad/s^2] by pivot friction, signed as the spin about the normal.
 
     The sign is that at the step's start: within a step it must not jump. A ball without such spin
     is held against the `drive` of a normal that turns, as by static friction.
@@ -94,17 +104,22 @@ def pivoting(ball, material, press, drive, radius, inertia):
 
 
 @kernel
-def micro_bounce_forces(ball, normal, press, downhill):
-    """Mean press, and acceleration along the ground by weight and air, of a ball in micro-bounces."""
+def micro_bounce_forces(
+    ball: BallRecord, normal: Vector, press: float, downhill: Vector
+) -> tuple[float, Vector]:
+    """Mean press, and acceleration along the ground by weight and air, in micro-bounces."""
     along_ground = tangential(load(ball['micro_bounce_air']), normal)
     return ball['micro_bounce_load'] * press, add(downhill, along_ground)
 
 
 @shared
-def contact_rates(land, ball, place, velocity, spin):
-    """Acceleration, angular acceleration, press, and friction needed to roll, on ground which is not flat.
+def contact_rates(
+    land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
+) -> tuple[Vector, Vector, float, float]:
+    """Acceleration, angular acceleration, press, and friction needed to roll.
 
-    A press below 0 means that the ground would have to pull.
+    Of a ball on ground which is not flat. A press below 0 means that the ground would have to
+    pull.
 
     With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
     mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =

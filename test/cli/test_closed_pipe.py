@@ -18,12 +18,9 @@ import os
 import subprocess
 import sys
 
+from golf_sim_ros.cli.closed_pipe import UNREAD
 import pytest
-
-pytest.importorskip('rosbags')
-
-from golf_sim_ros.cli.pipes import UNREAD  # noqa: E402
-from recorded_play import bag, Sim  # noqa: E402
+from recorded_play import bag, Sim
 
 TOOLS = (
     'resimulate',
