@@ -99,6 +99,7 @@ setup(
         *folders('config'),
         *folders('launch'),
         *folders('rviz'),
+        *folders('foxglove'),
     ],
     entry_points={
         'console_scripts': [f'{name} = {target}' for name, target in EXECUTABLES.items()]

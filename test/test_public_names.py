@@ -30,7 +30,7 @@ COMMANDS = {
 }
 SIM_PARAMETERS = {
     'course', 'rate', 'publish_rate', 'real_time_factor', 'accuracy', 'effects', 'balls',
-    'frame_id', 'publish_clock', 'engine',
+    'frame_id', 'publish_tf', 'parent_frame', 'publish_clock', 'engine',
 }
 WIND_PARAMETERS = {
     'speed', 'speed_spread', 'direction', 'direction_spread', 'interval', 'ramp', 'turbulence',
