@@ -23,9 +23,9 @@ from pathlib import Path
 import tempfile
 from typing import List
 
-from launch import LaunchDescription
 from golf_sim_ros.course import CourseError, load_course
 from golf_sim_ros.drawing.rviz_view import rviz_view
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
 from launch.substitutions import SubstitutionFailure, TextSubstitution

@@ -19,7 +19,7 @@ import asyncio
 import sys
 from typing import Optional
 
-from .pipes import in_pipes
+from .closed_pipe import in_pipes
 from .view_play import add_page, failed_with, linked, NoView, place_of, ready
 from ..course import CourseError, load_course
 from ..optional_packages import how_to_get

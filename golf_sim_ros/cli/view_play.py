@@ -19,7 +19,7 @@ from pathlib import Path
 import sys
 from typing import Any, Callable, Optional
 
-from .pipes import in_pipes, say
+from .closed_pipe import in_pipes, say
 from ..course import CourseError, load_course
 from ..drawing.recorded_shots import recorded
 from ..optional_packages import how_to_get
@@ -100,7 +100,7 @@ def chosen(options: argparse.Namespace) -> tuple:
     plays = read_bag(options.bag)
     if options.namespace is not None:
         wanted = options.namespace.strip('/')
-        plays = [play for play in plays if play.namespace.strip('/') == wanted]
+        plays = tuple(play for play in plays if play.namespace.strip('/') == wanted)
     found = [(play, recorded(play)) for play in plays]
     found = [(play, shots) for play, shots in found if shots]
     if not found:
@@ -130,7 +130,7 @@ def replayed(options: argparse.Namespace, course: Any, play: bytes) -> int:
     server.serve_replay(
         course_data(course),
         play,
-        lambda *urls: page.replay_page(*urls, course.name, options.units),
+        lambda one, other: page.replay_page(one, other, course.name, options.units),
     )
     return server.run(place, course.name, ready(place), nothing, nothing)
 

@@ -55,7 +55,7 @@ MEANING = {
     'effects': "effects to simulate, or ['auto']: just those that the scene calls for",
     'balls': 'names of the balls; the first one is in play',
     'frame_id': 'frame of every stamp, and the frame in which inputs are understood',
-    'publish_tf': 'whether to publish the transforms of course, tee, hole and balls; needs tf2_msgs',
+    'publish_tf': 'whether to publish transforms of course, tee, hole and balls; needs tf2_msgs',
     'parent_frame': 'frame around that of the course, for publish_tf',
     'publish_clock': 'whether to publish simulated time on /clock, and to stamp with it',
     'engine': 'what runs the physics: python, plain Python; compiled, the compiled engine; auto, '

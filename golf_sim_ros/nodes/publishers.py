@@ -33,8 +33,8 @@ from .diagnostics import diagnostic
 from .markers.course_markers import course_markers
 from .markers.play_markers import Scene
 from .older_rclpy import on_match, watch
-from .transforms import Transforms
 from .parameters import Parameters
+from .transforms import Transforms
 from ..physics import BallState, Collision, Result, World
 from ..recording.json_format import collision_text, rejection_text, result_text, text
 

@@ -67,7 +67,7 @@ class Transforms:
 
 
 def of_course(course: Course, parent: str, frame: str, head: Header) -> list[TransformStamped]:
-    """Transforms of the course's frame, the tee and the hole."""
+    """Make the transforms of the course's frame, the tee and the hole."""
     places = {'tee': course.tee, **({'hole': course.hole} if course.hole else {})}
     found = {name: (place, ground_height(course, *place)) for name, place in places.items()}
     return [
@@ -83,7 +83,7 @@ def of_course(course: Course, parent: str, frame: str, head: Header) -> list[Tra
 def of_balls(
     frame: str, head: Header, balls: dict[str, Any], turns: dict[str, Sequence[float]]
 ) -> list[TransformStamped]:
-    """Transforms of balls, by name."""
+    """Make the transforms of balls, by name."""
     return [
         transform(head, frame, f'{frame}/{name}', ball.position, turns[name])
         for name, ball in balls.items()
@@ -93,7 +93,7 @@ def of_balls(
 def transform(
     head: Header, parent: str, child: str, place: Sequence[float], turn: Sequence[float]
 ) -> TransformStamped:
-    """Transform of a frame at `place`, turned by a quaternion."""
+    """Make the transform of a frame at `place`, turned by a quaternion."""
     made = TransformStamped(header=Header(stamp=head.stamp, frame_id=parent))
     made.child_frame_id = child
     fill(made.transform.translation, place)

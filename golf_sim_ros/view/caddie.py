@@ -15,7 +15,7 @@
 """Where a shot would go, how a green slopes, which line holes, and what to play: physics alone."""
 
 from math import atan2, cos, degrees, hypot, radians, sin
-from typing import NamedTuple, Optional
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -66,17 +66,18 @@ class Flight(NamedTuple):
     """A shot that was played out: its path, rows of x, y, z [m], and how it ended."""
 
     path: np.ndarray
-    landing: Optional[tuple]
+    landing: tuple | None
     result: Result
 
 
-def launch(hole: Optional[tuple], place: tuple, stroke: Stroke) -> tuple:
+def launch(hole: tuple | None, place: tuple, stroke: Stroke) -> tuple:
     """Velocity and spin of a stroke from `place` towards `hole`, or along x without one."""
     heading = atan2(hole[1] - place[1], hole[0] - place[0]) if hole else 0.0
     if stroke.club == PUTTER:
         given = Launch(stroke.power)
     else:
         average = CLUBS[stroke.club].launch
+        assert average is not None, 'only the putter has none'
         backspin, sidespin = parted(stroke.power * average.backspin, MOST_TILT * stroke.curve)
         speed = stroke.power * average.speed
         given = Launch(speed, average.launch, 0.0, backspin, sidespin)
@@ -88,9 +89,9 @@ def play_out(
     place: tuple,
     stroke: Stroke,
     wind: tuple,
-    hole: Optional[tuple] = None,
+    hole: tuple | None = None,
     step: float = 0.05,
-) -> Optional[Flight]:
+) -> Flight | None:
     """`Flight` of a stroke towards `hole`, the course's if None; None where it can't be played.
 
     The path has a row every `step` [s].
@@ -115,7 +116,7 @@ def play_out(
     return Flight(np.array(path), events[0].position if flew else None, result)
 
 
-def prediction(course: Course, place: tuple, stroke: Stroke, wind: tuple) -> Optional[dict]:
+def prediction(course: Course, place: tuple, stroke: Stroke, wind: tuple) -> dict[str, Any] | None:
     """Path, landing and end of a stroke, for JSON; None where it cannot be played."""
     flight = play_out(course, place, stroke, wind)
     if flight is None:
@@ -138,9 +139,9 @@ def is_putt(course: Course, place: tuple) -> bool:
     """Whether a ball at `place` is best putted: on a green, not too far from the hole."""
     if course.hole is None:
         return False
-    found = ground_height(course, *place[:2])
+    found = ground_height(course, float(place[0]), float(place[1]))
     way = hypot(course.hole[0] - place[0], course.hole[1] - place[1])
-    return bool(found) and found[1] in GREENS and way < PUTTS
+    return found is not None and found[1] in GREENS and way < PUTTS
 
 
 def slopes(course: Course, place: tuple) -> list:
@@ -219,8 +220,9 @@ def choose(course: Course, place: tuple, wind: tuple) -> Stroke:
     """Choose the stroke that leaves the least way from `place`, clear of water and sand."""
     if is_putt(course, place):
         return putt(course, place, wind)
-    way = hypot(course.hole[0] - place[0], course.hole[1] - place[1])
-    best = None
+    hole = hole_of(course)
+    way = hypot(hole[0] - place[0], hole[1] - place[1])
+    best: tuple[float, Stroke] | None = None
     for aim in AIMS:
         for club in likely_clubs(way):
             stroke, left = reaching(course, place, club, aim, way, wind)
@@ -233,37 +235,47 @@ def choose(course: Course, place: tuple, wind: tuple) -> Stroke:
 
 def likely_clubs(way: float) -> list:
     """Clubs whose average carries about as far as `way`, or the longest."""
-    carries = {name: club.carry for name, club in CLUBS.items() if club.carry}
+    carries = {name: club.carry for name, club in CLUBS.items() if club.carry is not None}
     if way > max(carries.values()) + 15.0:
         return ['driver', '3w', '5i']
     enough = [name for name, carry in carries.items() if carry > 0.82 * way] or ['driver']
     return [enough[-1], *enough[-2:-1]]
 
 
+def hole_of(course: Course) -> tuple[float, float]:
+    """Find where the hole is; ValueError where there is none to play to."""
+    if course.hole is None:
+        raise ValueError(f'{course.name} has no hole')
+    return course.hole[0], course.hole[1]
+
+
 def usual_power(club: str, way: float) -> float:
     """About the power with which a club carries to the hole, at most a whole shot."""
     carry = CLUBS[club].carry
-    return (
-        1.0 if not carry or way >= carry or way <= 0.0 else max(LEAST_POWER, (way / carry) ** 0.6)
-    )
+    if not carry or not 0.0 < way < carry:
+        return MOST_POWER
+    return max(LEAST_POWER, (way / carry) ** 0.6)
 
 
 def reaching(
     course: Course, place: tuple, club: str, aim: float, way: float, wind: tuple
 ) -> tuple:
     """Search how hard to hit a club to end at the hole: the stroke, and what it leaves [m]."""
-    low, high, best = LEAST_POWER, MOST_POWER, (1e9, None)
+    low, high = LEAST_POWER, MOST_POWER
+    best: tuple[float, Stroke | None] = (1e9, None)
+    hole = hole_of(course)
     for n in range(HALVINGS):
         power = MOST_POWER if n == 0 else 0.5 * (low + high)
         stroke = Stroke(club, power, aim)
         flight = play_out(course, place, stroke, wind, step=LONGEST)
         if flight is None:
             break
-        best = min(best, (left_over(flight.result, way), stroke))
+        left = left_over(flight.result, way)
+        best = (left, stroke) if left < best[0] else best
         if flight.result.status == 'holed':
             break
         reached = np.subtract(flight.result.position[:2], place[:2])
-        heading = atan2(course.hole[1] - place[1], course.hole[0] - place[0])
+        heading = atan2(hole[1] - place[1], hole[0] - place[0])
         along = reached @ (cos(heading), sin(heading))
         if n == 0 and along < way:
             break
@@ -277,4 +289,5 @@ def left_over(result: Result, way: float) -> float:
         return 0.0
     if result.status in ('water', 'out_of_bounds', 'failed', 'time_limit'):
         return way + LOST
-    return result.to_hole + WORSE.get(result.lie, 0.0) * min(1.0, result.to_hole / 10.0)
+    left = result.to_hole or 0.0
+    return left + WORSE.get(result.lie, 0.0) * min(1.0, left / 10.0)

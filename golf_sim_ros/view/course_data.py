@@ -19,11 +19,12 @@ Layout, little endian; a height is the sum of the differences before it in its r
     'GOLF'  u32 length of JSON  JSON  i16 differences[ny][nx]  u8 materials[my][mx]
 """
 
+from collections.abc import Iterable
 import gzip
 import json
 from math import ceil, sqrt
 import struct
-from typing import NamedTuple
+from typing import Any, NamedTuple
 import zlib
 
 import numpy as np
@@ -108,7 +109,7 @@ def grid(course: Course) -> tuple:
 
 def surroundings(course: Course) -> tuple:
     """Corners of a rectangle around all that is finite, except the bounds."""
-    places = [course.tee[:2], *([course.hole[:2]] if course.hole else [])]
+    places: list[Any] = [course.tee[:2], *([course.hole[:2]] if course.hole else [])]
     for shape in course.ground:
         whole = isinstance(shape, Plane)
         places += [corner for cut in shape.cut for corner in cut] if whole else extent(shape)
@@ -130,7 +131,7 @@ def texels_a_cell(nx: int, ny: int, spacing: float) -> int:
     return max(1, min(TEXEL, most, ceil(spacing / 0.05)))
 
 
-def description(course: Course) -> dict:
+def description(course: Course) -> dict[str, Any]:
     """All of a course that is neither heights nor the grid of materials."""
     return {
         'name': course.name,
@@ -164,12 +165,12 @@ def on_ground(course: Course, place: tuple) -> list:
     return points([(place[0], place[1], found[0] if found else 0.0)])[0]
 
 
-def points(places: tuple) -> list:
+def points(places: Iterable[Any]) -> list:
     """Round to lists of numbers, to a millimetre."""
     return [[round(float(number), 3) for number in place] for place in places]
 
 
-def obstacle(shape: tuple) -> dict:
+def obstacle(shape: Any) -> dict[str, Any]:
     """Describe a sphere or an upright cylinder, for JSON."""
     is_sphere = isinstance(shape, Sphere)
     return {
@@ -182,7 +183,7 @@ def obstacle(shape: tuple) -> dict:
     }
 
 
-def wall(patch: Patch) -> dict:
+def wall(patch: Patch) -> dict[str, Any]:
     """Corners of an upright rectangle, for JSON."""
     return {
         'corners': points(rectangle(patch)),

@@ -44,14 +44,13 @@ async def play_hole(session: Session, worker: Worker, strike: Callable, moment: 
     await until(lambda: session.can_strike())
     while not session.is_over and session.round.hole.strokes < MOST:
         await asyncio.sleep(moment)
-        place, course = session.place, session.course
-        wind = [float(v) for v in session.wind]
-        answer = await worker.ask('choose', course=course.path, place=list(place), wind=wind)
-        if answer is None or place != session.place or not session.can_strike():
+        lie = session.lie
+        answer = lie and await worker.ask('choose', lie)
+        if lie is None or answer is None or not session.can_strike():
             await until(session.can_strike)
             continue
         stroke = Stroke(**answer)
-        velocity, spin = launch(course.hole, place, stroke)
+        velocity, spin = launch(lie.course.hole, lie.place, stroke)
         session.sent(stroke.club, velocity, spin)
         strike(velocity, spin)
         await until(lambda: session.can_strike() or session.is_over)

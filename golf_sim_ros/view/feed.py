@@ -22,7 +22,11 @@ import asyncio
 from collections import deque
 import json
 import struct
-from typing import Union
+from typing import Any
+
+from .course_data import CourseData
+
+Pose = tuple[float, float, float, float]  # time, x, y, z
 
 POSE = struct.Struct('<BBHI3f')
 PAST = 1
@@ -38,11 +42,11 @@ class Client:
     """One browser's queue of messages, text and bytes."""
 
     def __init__(self) -> None:
-        self.waiting, self.news = deque(), asyncio.Event()
-        self.ended = asyncio.Event()
+        self.waiting: deque[str | bytes] = deque()
+        self.news, self.ended = asyncio.Event(), asyncio.Event()
         self.ready = self.closed = False
 
-    def put(self, message: Union[str, bytes]) -> None:
+    def put(self, message: str | bytes) -> None:
         """Add a message; a queue that is full is closed."""
         if len(self.waiting) >= QUEUE:
             self.close()
@@ -57,7 +61,7 @@ class Client:
         self.waiting.clear()
         self.news.set()
 
-    async def take(self) -> Union[str, bytes, None]:
+    async def take(self) -> str | bytes | None:
         """Next message, poses that wait joined into one; None once it is closed."""
         while not self.waiting:
             if self.closed:
@@ -67,10 +71,11 @@ class Client:
         message = self.waiting.popleft()
         if isinstance(message, str):
             return message
-        parts = [message]
         while self.waiting and isinstance(self.waiting[0], bytes):
-            parts.append(self.waiting.popleft())
-        return b''.join(parts)
+            more = self.waiting.popleft()
+            assert isinstance(more, bytes)
+            message += more
+        return message
 
 
 class Ball:
@@ -78,8 +83,9 @@ class Ball:
 
     def __init__(self, name: str) -> None:
         self.name = name
-        self.sent, self.heard = None, None
-        self.trail = []
+        self.sent: Pose | None = None
+        self.heard: Pose | None = None
+        self.trail: list[Pose] = []
         self.every = 1  # of the poses sent, those that the trail keeps
         self.count = 0
 
@@ -88,12 +94,18 @@ class Feed:
     """State of a play, told to every browser that listens."""
 
     def __init__(self) -> None:
-        self.clients = set()
-        self.course = None  # `CourseData`
-        self.balls = []
-        self.status = {'kind': 'status', 'reached': False, 'text': 'Looking for a sim ...'}
-        self.wind, self.wind_told = (0.0, 0.0, 0.0), -1e9
-        self.score, self.last = {}, None  # strike or result, whichever came last
+        self.clients: set[Client] = set()
+        self.course: CourseData | None = None
+        self.balls: list[Ball] = []
+        self.status: dict[str, Any] = {
+            'kind': 'status',
+            'reached': False,
+            'text': 'Looking for a sim ...',
+        }
+        self.wind: tuple[float, ...] = (0.0, 0.0, 0.0)
+        self.wind_told = -1e9
+        self.score: dict[str, Any] = {}
+        self.last: dict[str, Any] | None = None  # the last result, until the next strike
 
     def connect(self) -> Client:
         """Queue of a new browser, which begins with the course."""
@@ -116,9 +128,10 @@ class Feed:
 
     def about_course(self) -> str:
         """Message that names the course."""
-        return json.dumps({'kind': 'course', 'url': f'/course/{self.course.tag}.bin'})
+        tag = self.course.tag if self.course else ''
+        return json.dumps({'kind': 'course', 'url': f'/course/{tag}.bin'})
 
-    def show_course(self, course: tuple, names: list) -> None:
+    def show_course(self, course: CourseData, names: list[str]) -> None:
         """Begin anew: another course, or another sim; `names` are its balls."""
         self.course, self.balls, self.last = course, [Ball(name) for name in names], None
         self.wind_told = -1e9
@@ -140,13 +153,15 @@ class Feed:
         if self.last:
             client.put(json.dumps(self.last))
 
-    def tell(self, message: Union[str, bytes]) -> None:
+    def tell(self, message: str | bytes) -> None:
         """Send a message to every browser that has drawn the course."""
         for client in list(self.clients):
             if client.ready:
                 client.put(message)
 
-    def pose(self, number: int, time: float, place: tuple, exact: bool = False) -> None:
+    def pose(
+        self, number: int, time: float, place: tuple[float, float, float], exact: bool = False
+    ) -> None:
         """Tell a ball's place; `exact` is an impact, which is never left out."""
         ball = self.balls[number]
         before, ball.heard = ball.sent, (time, *place)
@@ -156,7 +171,7 @@ class Feed:
                 return
         self.send(number, ball, (time, *place))
 
-    def send(self, number: int, ball: Ball, pose: tuple) -> None:
+    def send(self, number: int, ball: Ball, pose: Pose) -> None:
         """Tell a pose that is not left out."""
         ball.sent = max(ball.sent or pose, pose)
         self.tell(packed(number, pose, 0))
@@ -173,7 +188,7 @@ class Feed:
         self.last = None
         self.tell(json.dumps({'kind': 'strike', 'ball': number, 'time': time}))
 
-    def result(self, result: dict) -> None:
+    def result(self, result: dict[str, Any]) -> None:
         """Tell the end of a shot, and where exactly its ball was last seen."""
         number = next((n for n, ball in enumerate(self.balls) if ball.name == result['ball']), 0)
         ball = self.balls[number] if self.balls else None
@@ -182,7 +197,7 @@ class Feed:
         self.last = {'kind': 'result', **result}
         self.tell(json.dumps(self.last))
 
-    def blow(self, wind: tuple, now: float) -> None:
+    def blow(self, wind: tuple[float, float, float], now: float) -> None:
         """Tell the wind, where it changed by what can be seen, and not too often."""
         changed = max(abs(a - b) for a, b in zip(wind, self.wind)) >= WIND_STEP
         if changed and now - self.wind_told >= WIND_GAP:
@@ -197,14 +212,14 @@ class Feed:
             for client in list(self.clients):
                 client.put(json.dumps(status))
 
-    def tell_score(self, score: dict) -> None:
+    def tell_score(self, score: dict[str, Any]) -> None:
         """Tell hole, par and stroke."""
         if score != self.score:
             self.score = score
             self.tell(json.dumps({'kind': 'score', **score}))
 
 
-def packed(number: int, pose: tuple, past: int) -> bytes:
+def packed(number: int, pose: Pose, past: int) -> bytes:
     """Bytes of a pose: time, x, y, z."""
     ticks = int(round(1e4 * pose[0])) % 2**32
     return POSE.pack(number % 256, past, 0, ticks, *pose[1:])

@@ -15,7 +15,7 @@
 """A round of golf: holes, strokes, penalties, a card. Counts what results tell."""
 
 from math import hypot
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..physics import Course, ground_height
 
@@ -31,13 +31,14 @@ class Line(NamedTuple):
 
     stroke: int
     club: str
-    result: dict
+    result: dict[str, Any]
     penalty: int
 
 
 def par_of(course: Course) -> int:
     """Par of a course's hole, by its length."""
-    way = hypot(course.hole[0] - course.tee[0], course.hole[1] - course.tee[1])
+    hole = course.hole or course.tee
+    way = hypot(hole[0] - course.tee[0], hole[1] - course.tee[1])
     found = ground_height(course, *map(float, course.tee[:2]))
     if found and found[1].endswith('green'):
         return 2
@@ -56,14 +57,15 @@ class Hole:
 
     def __init__(self, number: int, name: str, par: int) -> None:
         self.number, self.name, self.par = number, name, par
-        self.lines, self.holed = [], False
+        self.lines: list[Line] = []
+        self.holed = False
 
     @property
     def strokes(self) -> int:
         """Strokes and penalties so far."""
         return sum(1 + line.penalty for line in self.lines)
 
-    def add(self, result: dict, club: str) -> None:
+    def add(self, result: dict[str, Any], club: str) -> None:
         """Count a shot, if it was one: not where it was rejected, failed or ended by a reset."""
         if result['status'] in ('rejected', 'failed', 'aborted'):
             return
@@ -85,7 +87,8 @@ class Round:
     """Holes one after the other, and the strikes that were sent but are not yet told of."""
 
     def __init__(self) -> None:
-        self.holes, self.sent = [], []
+        self.holes: list[Hole] = []
+        self.sent: list[tuple[str, tuple[float, ...]]] = []
 
     @property
     def hole(self) -> Hole:
@@ -97,18 +100,18 @@ class Round:
         self.holes.append(Hole(len(self.holes) + 1, course.name, par_of(course)))
         self.sent.clear()
 
-    def strike(self, club: str, velocity: tuple, spin: tuple) -> None:
+    def strike(self, club: str, velocity: tuple[float, ...], spin: tuple[float, ...]) -> None:
         """Note with which club a strike was sent."""
         self.sent = [*self.sent[-9:], (club, (*velocity, *spin))]
 
-    def end(self, result: dict) -> None:
+    def end(self, result: dict[str, Any]) -> None:
         """Count a result; the club is known of what was sent from here."""
         told = [*(result['velocity'] or ()), *(result['spin'] or ())]
         club = next((club for club, sent in self.sent if is_same(told, sent)), '')
         if self.holes:
             self.hole.add(result, club)
 
-    def score(self) -> dict:
+    def score(self) -> dict[str, Any]:
         """Sum up what pages show at their heads."""
         if not self.holes:
             return {}
@@ -122,7 +125,7 @@ class Round:
         }
 
 
-def is_same(told: list, sent: tuple) -> bool:
+def is_same(told: list[Any], sent: tuple[float, ...]) -> bool:
     """Whether a strike as a result tells it is the one that was sent."""
     pairs = list(zip(told, sent))
     return len(pairs) == 6 and all(a is not None and abs(a - b) <= ROUNDING for a, b in pairs)

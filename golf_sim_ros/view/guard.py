@@ -18,7 +18,8 @@ A browser tells with each request which host it means (DNS rebinding shows there
 that other sites make, where it comes from. What is foreign is refused, websockets too.
 """
 
-from typing import Callable
+from collections.abc import Callable, Sequence
+from typing import Any
 
 LOCAL = ('127.0.0.1', 'localhost', '::1')
 ANY = ('0.0.0.0', '::', '')  # addresses that mean all of a machine's
@@ -36,12 +37,14 @@ class Guard:
         Hosts by which this server is called, beside this machine's own.
     """
 
-    def __init__(self, app: Callable, port: int, names: tuple = ()) -> None:
+    def __init__(self, app: Callable[..., Any], port: int, names: Sequence[str] = ()) -> None:
         self.app = app
         hosts = {f'[{name}]' if name.count(':') > 1 else name.lower() for name in (*LOCAL, *names)}
         self.hosts = {f'{host}:{port}' for host in hosts} | (hosts if port == 80 else set())
 
-    async def __call__(self, scope: dict, receive: Callable, send: Callable) -> None:
+    async def __call__(
+        self, scope: dict[str, Any], receive: Callable[..., Any], send: Callable[..., Any]
+    ) -> None:
         """Hand on what is meant for this server, refuse all else."""
         if scope['type'] not in ('http', 'websocket') or self.is_right(scope['headers']):
             await self.app(scope, receive, send)
@@ -52,7 +55,7 @@ class Guard:
             await send({'type': 'http.response.start', 'status': 403, 'headers': headers})
             await send({'type': 'http.response.body', 'body': b'foreign host or origin\n'})
 
-    def is_right(self, headers: list) -> bool:
+    def is_right(self, headers: list[tuple[bytes, bytes]]) -> bool:
         """Whether each Host and Origin in `headers`, pairs of bytes, is one of ours."""
         told = [(name.lower(), value.decode('latin-1').lower()) for name, value in headers]
         hosts = [value for name, value in told if name == b'host']

@@ -90,7 +90,7 @@ def one_file(course: bytes, play: bytes, title: str, units: str) -> str:
 def three() -> Path:
     """File of the library that draws, which NiceGUI brings."""
     found = find_spec('nicegui')
-    if found is None:
+    if found is None or found.origin is None:
         raise NEEDED
     return Path(found.origin).parent / 'elements' / 'scene' / 'dist' / 'index.js'
 

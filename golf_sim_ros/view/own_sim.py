@@ -14,12 +14,12 @@
 
 """A sim and its wind of one's own: processes that are started for a hole and ended after it."""
 
+from collections.abc import Sequence
 import os
 import signal
 import subprocess
 import sys
 from time import monotonic, sleep
-from typing import Sequence
 
 PATIENCE = 1.2  # s after which a process that was told to end is killed
 LOOK = 0.02  # s from one look at ending processes to the next
@@ -44,7 +44,7 @@ class OwnSim:
 
     def __init__(self, namespace: str, parameters: Sequence[str] = (), wind: float = 0.0) -> None:
         self.namespace, self.parameters, self.wind = namespace, list(parameters), wind
-        self.processes = []
+        self.processes: list[subprocess.Popen] = []
 
     def start(self, course: str) -> None:
         """Start the processes of a sim on a course, in place of those that run."""

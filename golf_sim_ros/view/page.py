@@ -15,16 +15,18 @@
 """The page: the picture, and where one may play the panel to strike from and the score card."""
 
 import asyncio
+from collections.abc import Callable
 from math import hypot
-from typing import Callable, Optional
+from typing import Any
 
-from nicegui import background_tasks, ui
+from nicegui import background_tasks, events, ui
 from nicegui.element import Element
 from nicegui.elements import scene
 
 from . import caddie
 from .caddie import Stroke
-from .session import Session
+from .game import Line
+from .session import Lie, Session
 from .worker import Worker
 from ..shot_input.clubs import CLUBS, PUTTER
 from ..shot_input.units import UNITS
@@ -48,7 +50,7 @@ STYLE = """
 """
 
 
-class GolfScene(Element, component='golf_scene.js', esm={'golf-view': 'js'}):
+class GolfScene(Element, component='golf_scene.js', esm={'golf-view': 'js'}):  # type: ignore
     """The picture: of a live play (`feed`), or of a recorded one on a course."""
 
     def __init__(self, **given: str) -> None:
@@ -96,12 +98,14 @@ class PlayPage:
         self,
         session: Session,
         worker: Worker,
-        strike: Callable,
-        go_on: Optional[Callable],
+        strike: Callable[..., Any],
+        go_on: Callable[..., Any] | None,
         units: str,
     ) -> None:
         self.session, self.worker, self.hit, self.go_on = session, worker, strike, go_on
-        self.units, self.asked, self.shown, self.could = units, 0, None, None
+        self.units, self.asked, self.told_end = units, 0, False
+        self.shown: Lie | None = None  # what the hints are of
+        self.could: bool | None = None
         dress('golf_sim_ros: play')
         self.scene = GolfScene(feed='/feed', units=units)
         self.panel()
@@ -136,7 +140,13 @@ class PlayPage:
                 card.props('dense unelevated').tooltip('Score card')
 
     def slider(
-        self, name: str, low: float, high: float, value: float, step: float, text: Callable
+        self,
+        name: str,
+        low: float,
+        high: float,
+        value: float,
+        step: float,
+        text: Callable[[float], str],
     ) -> ui.slider:
         """Build a slider with its name and, as people read it, its value."""
         with ui.element('div').classes('told'):
@@ -175,10 +185,10 @@ class PlayPage:
     @property
     def way(self) -> float:
         """Distance to the hole [m]; 0 where there is none, or no ball yet."""
-        place, course = self.session.place, self.session.course
-        if not (place and course and course.hole):
+        lie = self.session.lie
+        if lie is None or lie.course.hole is None:
             return 0.0
-        return hypot(course.hole[0] - place[0], course.hole[1] - place[1])
+        return hypot(lie.course.hole[0] - lie.place[0], lie.course.hole[1] - lie.place[1])
 
     @property
     def stroke(self) -> Stroke:
@@ -227,27 +237,21 @@ class PlayPage:
             self.aside.set_text('')
             self.scene.run_method('hideHints' if not self.hints.value else 'hideLine')
             return
-        stroke, place = self.stroke, session.place
-        answer = await self.ask('predict', stroke=stroke._asdict())
-        if number != self.asked or place != session.place or self.client.is_deleted:
+        lie = session.lie
+        if lie is None:
+            return
+        answer = await self.worker.ask('predict', lie, stroke=self.stroke._asdict())
+        if number != self.asked or self.client.is_deleted:
             return
         if answer and session.can_strike():
             self.scene.run_method('predict', answer)
             self.aside.set_text(told(answer, self.units))
 
-    async def ask(self, question: str, **given: dict) -> Optional[dict]:
-        """Answer of the worker about the ball where it lies."""
-        session = self.session
-        wind = [round(float(v), 2) for v in session.wind]
-        return await self.worker.ask(
-            question, course=session.course.path, place=list(session.place), wind=wind, **given
-        )
-
-    async def read_green(self, key: tuple) -> None:
+    async def read_green(self, lie: Lie) -> None:
         """Show the slopes of the green, then the line that holes."""
         for question in ('slopes', 'line'):
-            answer = await self.ask(question)
-            if key != self.shown or self.client.is_deleted:
+            answer = await self.worker.ask(question, lie)
+            if lie != self.shown or self.client.is_deleted:
                 return
             if answer and self.hints.value:
                 self.scene.run_method('readGreen', question, answer)
@@ -255,15 +259,16 @@ class PlayPage:
     def strike(self) -> None:
         """Strike the ball."""
         session = self.session
-        if not session.can_strike():
+        lie = session.lie
+        if lie is None or not session.can_strike():
             return
         stroke = self.stroke
-        velocity, spin = caddie.launch(session.course.hole, session.place, stroke)
+        velocity, spin = caddie.launch(lie.course.hole, lie.place, stroke)
         self.asked += 1
         session.sent(stroke.club, velocity, spin)
         self.hit(velocity, spin)
 
-    def on_key(self, event: object) -> None:
+    def on_key(self, event: events.KeyEventArguments) -> None:
         """Strike with space, aim with the arrows."""
         if not event.action.keydown:
             return
@@ -285,27 +290,23 @@ class PlayPage:
             self.button.set_enabled(can)
             if not can:
                 self.aside.set_text('')
-        key = (session.course and session.course.digest, session.place) if can else None
-        if can and key != self.shown:
-            self.shown = key
-            self.prepare(key)
+        lie = session.lie
+        if can and lie is not None and not is_same(lie, self.shown):
+            self.shown = lie
+            self.prepare(lie)
         if session.is_over and not self.told_end:
             self.told_end = True
             self.show_card()
         elif not session.is_over:
             self.told_end = False
 
-    told_end = False
-
-    def prepare(self, key: tuple) -> None:
+    def prepare(self, lie: Lie) -> None:
         """Suggest a club for the ball's new place, and show what there is to see there."""
-        session = self.session
-        course, place = session.course, session.place
         with self.client:
-            if course.hole and caddie.is_putt(course, place):
+            if caddie.is_putt(lie.course, lie.place):
                 self.club.value = PUTTER
-                background_tasks.create(self.read_green(key), name='green')
-            elif course.hole:
+                background_tasks.create(self.read_green(lie), name='green')
+            elif lie.course.hole:
                 self.club.value = caddie.likely_clubs(self.way)[0]
             self.aim.value = self.curve.value = 0
             self.on_club()
@@ -326,7 +327,16 @@ class PlayPage:
     async def on_go_on(self) -> None:
         """Begin the next hole."""
         self.dialog.close()
-        await self.go_on()
+        if self.go_on:
+            await self.go_on()
+
+
+def is_same(lie: Lie, other: Lie | None) -> bool:
+    """Whether a ball lies where it lay; the wind may have turned."""
+    return other is not None and (lie.course.digest, lie.place) == (
+        other.course.digest,
+        other.place,
+    )
 
 
 def club_label(name: str, units: str) -> str:
@@ -335,7 +345,7 @@ def club_label(name: str, units: str) -> str:
     return f'{name}, carries {carry / length.size:.0f} {length.name}' if carry else name
 
 
-def told(answer: dict, units: str) -> str:
+def told(answer: dict[str, Any], units: str) -> str:
     """Put a prediction into words."""
 
     def show(meters: float) -> str:
@@ -367,11 +377,11 @@ COLUMNS = [
 ]
 
 
-def card_rows(lines: list, units: str) -> list:
+def card_rows(lines: list[Line], units: str) -> list[dict[str, Any]]:
     """Rows of a hole's card."""
     length = UNITS[units].length
 
-    def show(meters: Optional[float]) -> str:
+    def show(meters: float | None) -> str:
         return '' if meters is None else f'{meters / length.size:.1f} {length.name}'
 
     ends = {'at_rest': '', 'holed': 'holed', 'water': 'water', 'out_of_bounds': 'out of bounds'}
@@ -390,7 +400,7 @@ def card_rows(lines: list, units: str) -> list:
     ]
 
 
-def fill_card(session: Session, units: str, go_on: Optional[Callable]) -> None:
+def fill_card(session: Session, units: str, go_on: Callable[..., Any] | None) -> None:
     """Put all holes into the score card."""
     for hole in session.round.holes:
         score = f'{hole.strokes}, {hole.verdict()}' if hole.holed else f'{hole.strokes} so far'

@@ -25,12 +25,13 @@ import struct
 import numpy as np
 
 from ..drawing.shots import DrawnShot
+from ..physics import Collision
 from ..recording.json_format import result_text
 
 STEADY = 1.2  # s before a strike at which a ball that was dropped or placed lies there
 
 
-def play_data(shots: list) -> bytes:
+def play_data(shots: list[DrawnShot]) -> bytes:
     """Compact data of shots that were played.
 
     Parameters
@@ -63,9 +64,9 @@ def play_data(shots: list) -> bytes:
     return b'PLAY' + struct.pack('<I', len(head)) + head + b''.join(map(np.ndarray.tobytes, rows))
 
 
-def ball_rows(shots: list) -> np.ndarray:
+def ball_rows(shots: list[DrawnShot]) -> np.ndarray:
     """Rows of time, x, y, z of one ball, (n, 4) float32; impacts are rows of their own."""
-    parts = []
+    parts: list[np.ndarray] = []
     for shot in shots:
         path = np.column_stack([shot.times, shot.positions])
         hits = [(hit.time, *hit.position) for hit in shot.collisions if is_within(hit, shot)]
@@ -79,15 +80,15 @@ def ball_rows(shots: list) -> np.ndarray:
     return np.vstack(parts).astype('<f4')
 
 
-def is_within(hit: tuple, shot: DrawnShot) -> bool:
+def is_within(hit: Collision, shot: DrawnShot) -> bool:
     """Whether an impact has a time and place within a shot's path."""
     return shot.times[0] <= hit.time <= shot.times[-1] and np.isfinite(hit.position).all()
 
 
-def winds(shots: list) -> list:
+def winds(shots: list[DrawnShot]) -> list:
     """Rows of a time and the wind from then on, where it changed by what can be seen."""
     rows = sorted(tuple(map(float, row)) for shot in shots for row in shot.wind)
-    kept = []
+    kept: list[list[float]] = []
     for row in rows:
         if not kept or np.abs(np.subtract(row[1:], kept[-1][1:])).max() >= 0.1:
             kept.append([round(number, 2) for number in row])

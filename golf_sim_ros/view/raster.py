@@ -19,6 +19,7 @@ needs two million places: here each shape fills its part of the grid.
 """
 
 from functools import singledispatch
+from typing import Any
 
 import numpy as np
 
@@ -69,16 +70,17 @@ def ground_grid(course: Course, x: np.ndarray, y: np.ndarray) -> tuple:
     return heights, numbers
 
 
-def window(shape: tuple, x: np.ndarray, y: np.ndarray) -> tuple:
+def window(shape: Any, x: np.ndarray, y: np.ndarray) -> tuple:
     """Slices of rows and columns of a grid over which `shape` may lie."""
     if isinstance(shape, Plane):
         return np.s_[:, :]
     if is_wall(shape):
         return np.s_[:0, :0]
-    return box(*extent(shape), x, y)
+    low, high = extent(shape)
+    return box(low, high, x, y)
 
 
-def extent(shape: tuple) -> tuple:
+def extent(shape: Any) -> tuple:
     """Corners (x, y) of the rectangle around a shape that is not endless."""
     if isinstance(shape, Mesh):
         places = np.asarray(shape.vertices, float)[np.asarray(shape.faces)].reshape(-1, 3)
@@ -99,7 +101,7 @@ def rectangle(patch: Patch) -> list:
     return [np.add(patch.center, turn) for turn in turns]
 
 
-def is_wall(shape: tuple) -> bool:
+def is_wall(shape: Any) -> bool:
     """Whether a shape is a rectangle that stands upright: a line from above."""
     return isinstance(shape, Patch) and abs(shape.normal[2]) < UPRIGHT * np.linalg.norm(
         shape.normal
@@ -115,7 +117,7 @@ def box(low: np.ndarray, high: np.ndarray, x: np.ndarray, y: np.ndarray) -> tupl
     return rows, columns
 
 
-def covered(polygon: tuple, cuts: tuple, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def covered(polygon: Any, cuts: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Whether `polygon`, without `cuts`, holds each place of a grid."""
     places = [grid.ravel() for grid in np.meshgrid(x, y)]
     inside = holds(polygon, *places)
@@ -125,7 +127,7 @@ def covered(polygon: tuple, cuts: tuple, x: np.ndarray, y: np.ndarray) -> np.nda
 
 
 @singledispatch
-def height_on(shape: tuple, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def height_on(shape: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Heights of one shape on a grid; minus infinity where it is not.
 
     A kind of ground that has no function of its own here is asked place by place.
@@ -137,12 +139,12 @@ def height_on(shape: tuple, x: np.ndarray, y: np.ndarray) -> np.ndarray:
 
 
 @height_on.register
-def _plane(shape: Plane, x, y):
+def _plane(shape: Plane, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return without(shape.cut, incline(shape.point, shape.normal, x, y), x, y)
 
 
 @height_on.register
-def _patch(shape: Patch, x, y):
+def _patch(shape: Patch, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     heights = incline(shape.center, shape.normal, x, y)
     if not np.isfinite(heights).any():
         return heights
@@ -159,13 +161,13 @@ def _patch(shape: Patch, x, y):
 
 
 @height_on.register
-def _heightmap(shape: Heightmap, x, y):
+def _heightmap(shape: Heightmap, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     along, up = ((p - o) / shape.spacing for p, o in zip((x, y), shape.origin))
     return spline(spline(np.asarray(shape.heights, float), up).T, along).T
 
 
 @height_on.register
-def _mesh(shape: Mesh, x, y):
+def _mesh(shape: Mesh, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     heights = np.full((len(y), len(x)), -np.inf)
     for triangle in np.asarray(shape.vertices, float)[np.asarray(shape.faces)]:
         part = box(triangle[:, :2].min(0), triangle[:, :2].max(0), x, y)

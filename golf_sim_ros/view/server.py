@@ -15,12 +15,13 @@
 """The page's server: on this machine only unless told otherwise; a signal ends it with code 0."""
 
 import asyncio
+from collections.abc import Callable
 from contextlib import suppress
 import gzip
 import signal
 import socket
 import sys
-from typing import Callable, NamedTuple, Optional
+from typing import NamedTuple
 import zlib
 
 from fastapi import Request, Response, WebSocket, WebSocketDisconnect
@@ -28,7 +29,7 @@ from nicegui import app, ui
 from nicegui.server import Server
 
 from .course_data import CourseData
-from .feed import Feed
+from .feed import Client, Feed
 from .guard import ANY, Guard
 
 FIRST_PORT, PORTS = 8470, 30
@@ -79,8 +80,8 @@ def serve_bytes(path: str, find: Callable) -> None:
 def serve_feed(feed: Feed) -> None:
     """Serve a play's course and its websocket."""
 
-    def find(name: str) -> Optional[bytes]:
-        course: CourseData = feed.course
+    def find(name: str) -> bytes | None:
+        course = feed.course
         return course.packed if course and course.tag == name else None
 
     serve_bytes('/course', find)
@@ -104,7 +105,7 @@ def serve_feed(feed: Feed) -> None:
             await asyncio.wait_for(socket_.close(), 0.2)
 
 
-async def hear(socket_: WebSocket, feed: Feed, client: object) -> None:
+async def hear(socket_: WebSocket, feed: Feed, client: Client) -> None:
     """Take the one thing that a browser says: that it has drawn the course."""
     with suppress(WebSocketDisconnect, RuntimeError, KeyError):
         while True:
@@ -112,7 +113,7 @@ async def hear(socket_: WebSocket, feed: Feed, client: object) -> None:
                 feed.catch_up(client)
 
 
-async def talk(socket_: WebSocket, client: object) -> None:
+async def talk(socket_: WebSocket, client: Client) -> None:
     """Send what waits for a browser."""
     with suppress(WebSocketDisconnect, RuntimeError):
         while (message := await client.take()) is not None:

@@ -14,16 +14,28 @@
 
 """A play as the page knows it: what was heard from the sim, whether its ball can be struck."""
 
+from collections.abc import Callable
 from time import monotonic
-from typing import Callable, Optional
+from typing import Any, NamedTuple
 
+from .course_data import CourseData
 from .feed import Feed
 from .game import Round
 from ..physics import Course
 
 TAKEN = 3.0  # s in which a sim that can be reached has taken a strike, or it was lost
+Place = tuple[float, float, float]
+
 AWAY = 'The sim cannot be reached'
 NOT_YET = 'Looking for a sim ...'
+
+
+class Lie(NamedTuple):
+    """A ball that lies somewhere: course, x, y, z, and the wind there."""
+
+    course: Course
+    place: Place
+    wind: Place
 
 
 class Session:
@@ -38,16 +50,25 @@ class Session:
     def __init__(self, is_game: bool = False) -> None:
         self.feed, self.round = Feed(), Round()
         self.is_game = is_game
-        self.course, self.names = None, []
-        self.reached, self.problem, self.sent_at = False, '', None
-        self.flying, self.ended = {}, set()  # shots by ball; numbers of those that are over
-        self.places, self.wind = {}, (0.0, 0.0, 0.0)
-        self.changed = []  # called after each change, by pages
+        self.course: Course | None = None
+        self.names: list[str] = []
+        self.reached, self.problem = False, ''
+        self.sent_at: float | None = None
+        self.flying: dict[int, int] = {}  # shots by ball
+        self.ended: set[int] = set()  # numbers of shots that are over
+        self.places: dict[int, Place] = {}
+        self.wind: Place = (0.0, 0.0, 0.0)
+        self.changed: list[Callable[[], Any]] = []  # called after each change, by pages
 
-    def listen(self, act: Callable) -> Callable:
+    def listen(self, act: Callable[[], Any]) -> Callable[[], None]:
         """Call `act` after each change, until the function that is given back is called."""
         self.changed.append(act)
-        return lambda: self.changed.remove(act) if act in self.changed else None
+
+        def forget() -> None:
+            if act in self.changed:
+                self.changed.remove(act)
+
+        return forget
 
     def notify(self) -> None:
         """Tell the pages that something changed."""
@@ -56,9 +77,10 @@ class Session:
             act()
 
     @property
-    def place(self) -> Optional[tuple]:
-        """x, y, z of the ball in play."""
-        return self.places.get(0)
+    def lie(self) -> Lie | None:
+        """Where the ball in play is, and on which course; None where that is not known yet."""
+        place = self.places.get(0)
+        return Lie(self.course, place, self.wind) if self.course and place else None
 
     @property
     def is_over(self) -> bool:
@@ -69,15 +91,10 @@ class Session:
         """Whether the ball in play waits to be struck."""
         waits = self.sent_at is not None and monotonic() < self.sent_at + TAKEN
         return bool(
-            self.reached
-            and self.course
-            and self.place
-            and not waits
-            and not self.flying.get(0)
-            and not self.is_over
+            self.reached and self.lie and not waits and not self.flying.get(0) and not self.is_over
         )
 
-    def sent(self, club: str, velocity: tuple, spin: tuple) -> None:
+    def sent(self, club: str, velocity: Place, spin: Place) -> None:
         """Note a strike that is being sent."""
         self.sent_at = monotonic()
         self.round.strike(club, velocity, spin)
@@ -97,7 +114,7 @@ class Session:
         self.problem = f'{reason}; --course names the course'
         self.feed.say(self.reached, self.problem)
 
-    def on_begin(self, course: Course, data: tuple, names: list) -> None:
+    def on_begin(self, course: Course, data: CourseData, names: list[str]) -> None:
         """Take a sim's start: course and balls."""
         self.course, self.names, self.problem = course, names, ''
         self.flying, self.ended, self.places, self.sent_at = {}, set(), {}, None
@@ -117,7 +134,7 @@ class Session:
         self.feed.strike(number, time)
         self.notify()
 
-    def on_pose(self, number: int, time: float, place: tuple, exact: bool) -> None:
+    def on_pose(self, number: int, time: float, place: Place, exact: bool) -> None:
         """Take where a ball is."""
         if number >= len(self.names):
             return
@@ -128,7 +145,7 @@ class Session:
         if not known:
             self.notify()
 
-    def on_result(self, result: dict) -> None:
+    def on_result(self, result: dict[str, Any]) -> None:
         """Take the end of a shot."""
         if result['ball'] not in self.names or result['shot'] in self.ended:
             return
@@ -143,7 +160,7 @@ class Session:
         self.feed.result(result)
         self.notify()
 
-    def on_wind(self, wind: tuple) -> None:
+    def on_wind(self, wind: Place) -> None:
         """Take the wind."""
         self.wind = wind
         self.feed.blow(wind, monotonic())

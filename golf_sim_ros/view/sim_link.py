@@ -18,11 +18,12 @@ It has a publisher of strikes only where it may strike.
 """
 
 import asyncio
+from collections.abc import Callable
 from functools import partial
 import json
 import os
 import threading
-from typing import Callable, Optional
+from typing import Any
 
 from geometry_msgs.msg import PointStamped, PoseStamped, Twist, Vector3Stamped
 import rclpy
@@ -33,8 +34,9 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from .course_data import course_data
+from .session import Session
 from ..course import CourseError, load_course
-from ..nodes.conversions import strike, triple
+from ..nodes.conversions import strike, triple, Vector
 from ..nodes.lifecycle import EventsExecutor
 from ..nodes.reachability import Reach
 from ..recording.bag import BagError
@@ -61,12 +63,17 @@ class SimLink:
         Name or path of the course, where it is not where the sim says.
     """
 
-    def __init__(self, session: object, namespace: Optional[str], may_strike: bool, course: str):
+    def __init__(
+        self, session: Session, namespace: str | None, may_strike: bool, course: str | None
+    ) -> None:
         self.session, self.namespace, self.may_strike = session, namespace, may_strike
         self.given_course = course
-        self.node = self.thread = self.loop = None
         self.ended = threading.Event()
-        self.start, self.of_balls, self.names = None, [], []
+        self.start: int | None = None
+        self.of_balls: list[Any] = []
+        self.names: list[str] = []
+        self.told: tuple[bool, ...] | None = None
+        self.thread: threading.Thread | None = None
 
     def connect(self) -> None:
         """Begin to listen; called in the event loop."""
@@ -83,9 +90,7 @@ class SimLink:
         listen(String, 'shot/result', self.on_result, LASTING)
         listen(Vector3Stamped, 'wind', self.on_wind, NEWEST)
         self.reach = Reach(self.node)
-        self.told = None
         self.node.create_timer(LOOK, self.look)
-        self.shots = self.resets = None
         if self.may_strike:
             self.shots = self.node.create_publisher(Twist, 'shot', 10)
             self.resets = self.node.create_client(Trigger, 'golf_sim/reset')
@@ -103,17 +108,17 @@ class SimLink:
     def close(self) -> None:
         """Stop to listen."""
         self.ended.set()
-        if self.thread:
+        if self.thread is not None:
             self.thread.join(2.0)
             self.node.destroy_node()
         rclpy.try_shutdown()
 
-    def tell(self, act: Callable, *given: object) -> None:
+    def tell(self, act: Callable[..., Any], *given: Any) -> None:
         """Have the event loop's thread call `act`."""
         if not self.loop.is_closed():
             self.loop.call_soon_threadsafe(act, *given)
 
-    def strike(self, velocity: tuple, spin: tuple) -> None:
+    def strike(self, velocity: Vector, spin: Vector) -> None:
         """Strike the ball in play."""
         self.shots.publish(strike(velocity, spin))
 
@@ -141,7 +146,7 @@ class SimLink:
             time = entry['tick'] / self.rate
             self.tell(self.session.on_strike, entry['ball'], time, entry['shot'])
 
-    def begin(self, config: dict) -> None:
+    def begin(self, config: dict[str, Any]) -> None:
         """Follow a sim that has just been started, or that is newly seen."""
         self.start, self.rate = config['start'], config['parameters']['rate']
         for subscription in self.of_balls:
@@ -166,7 +171,7 @@ class SimLink:
                 )
                 self.of_balls.append(subscription)
 
-    def time_of(self, message: object) -> float:
+    def time_of(self, message: Any) -> float:
         """Reckon the simulated time of a stamp [s]."""
         stamp = message.header.stamp
         return 1e-9 * (stamp.sec * 10**9 + stamp.nanosec - self.start)

@@ -18,7 +18,7 @@ import asyncio
 from math import hypot
 import signal
 import sys
-from typing import Any, Optional
+from typing import Any
 
 from . import caddie
 from .caddie import launch, Stroke
@@ -56,7 +56,8 @@ async def rounds(game: Any, options: Any) -> int:
     """Play all holes, until input ends or a signal comes."""
     loop, task = asyncio.get_running_loop(), asyncio.current_task()
     for number in (signal.SIGINT, signal.SIGTERM):
-        loop.add_signal_handler(number, task.cancel)
+        if task is not None:
+            loop.add_signal_handler(number, task.cancel)
     worker = Worker()
     game.begin()
     try:
@@ -79,9 +80,9 @@ async def rounds(game: Any, options: Any) -> int:
 
 def tee_off(session: Session, units: str) -> None:
     """Print the hole that begins."""
-    hole, course, length = session.round.hole, session.course, UNITS[units].length
-    way = hypot(course.hole[0] - course.tee[0], course.hole[1] - course.tee[1]) / length.size
-    print(f'\n{course.name}: par {hole.par}, {way:.0f} {length.name}', flush=True)
+    hole, length = session.round.hole, UNITS[units].length
+    way = way_to_hole(session) / length.size
+    print(f'\n{hole.name}: par {hole.par}, {way:.0f} {length.name}', flush=True)
 
 
 async def demonstrated(session: Session, worker: Worker, game: Any, units: str) -> None:
@@ -112,17 +113,20 @@ async def typed(session: Session, worker: Worker, game: Any, units: str) -> bool
         stroke = await understood(line, session, worker)
         if stroke is None:
             continue
-        velocity, spin = launch(session.course.hole, session.place, stroke)
+        lie = session.lie
+        if lie is None:
+            continue
+        velocity, spin = launch(lie.course.hole, lie.place, stroke)
         lines = len(session.round.hole.lines)
         session.sent(stroke.club, velocity, spin)
         game.link.strike(velocity, spin)
         await until(lambda: session.can_strike() or session.is_over)
-        for line in session.round.hole.lines[lines:]:
-            print(described(line, units), flush=True)
+        for played in session.round.hole.lines[lines:]:
+            print(described(played, units), flush=True)
     return True
 
 
-async def next_line() -> Optional[str]:
+async def next_line() -> str | None:
     """Read a line of standard input; None where it ended."""
     loop, ready = asyncio.get_running_loop(), asyncio.Event()
     try:
@@ -136,12 +140,11 @@ async def next_line() -> Optional[str]:
     return sys.stdin.readline() or None
 
 
-async def understood(line: str, session: Session, worker: Worker) -> Optional[Stroke]:
+async def understood(line: str, session: Session, worker: Worker) -> Stroke | None:
     """Read a typed line as a stroke; None where it is none, after a line that says why."""
     words = line.split()
     if words == ['?']:
-        given = {'place': list(session.place), 'wind': list(map(float, session.wind))}
-        answer = await worker.ask('choose', course=session.course.path, **given)
+        answer = session.lie and await worker.ask('choose', session.lie)
         print(advice(Stroke(**answer)) if answer else 'no advice')
         return None
     if not words:
@@ -159,12 +162,20 @@ def stroke_of(words: list, session: Session) -> Stroke:
     if len(words) > 4:
         raise ValueError('CLUB, POWER, AIM and CURVE are all there is')
     numbers = [float(word) for word in words[1:]]
-    given = len(numbers)
-    power, aim, curve = (*numbers, *(None, 0.0, 0.0)[given:])
+    power = numbers[0] if numbers else None
+    aim, curve = [*numbers[1:], 0.0, 0.0][:2]
     if name == PUTTER:
-        way = hypot(*(h - p for h, p in zip(session.course.hole, session.place)))
+        way = way_to_hole(session)
         return Stroke(name, caddie.putt_speed(way + 0.3) if power is None else power, aim)
     return Stroke(name, (100.0 if power is None else power) / 100, aim, curve / 100)
+
+
+def way_to_hole(session: Session) -> float:
+    """Distance from the ball to the hole [m]."""
+    lie = session.lie
+    if lie is None or lie.course.hole is None:
+        return 0.0
+    return hypot(lie.course.hole[0] - lie.place[0], lie.course.hole[1] - lie.place[1])
 
 
 def advice(stroke: Stroke) -> str:
@@ -175,15 +186,17 @@ def advice(stroke: Stroke) -> str:
 
 def situation(session: Session, units: str) -> str:
     """Describe where the ball lies: stroke, way, wind, a club."""
-    length, course, place = UNITS[units].length, session.course, session.place
-    way = hypot(course.hole[0] - place[0], course.hole[1] - place[1]) / length.size
+    length, lie = UNITS[units].length, session.lie
+    way = way_to_hole(session)
     wind = hypot(*session.wind[:2])
     blows = f', wind {wind:.1f} m/s' if wind > 0.1 else ''
-    likely = PUTTER if caddie.is_putt(course, place) else caddie.likely_clubs(way * length.size)[0]
+    putts = lie is not None and caddie.is_putt(lie.course, lie.place)
+    likely = PUTTER if putts else caddie.likely_clubs(way)[0]
     carry = CLUBS[likely].carry
     reach = f' carries {carry / length.size:.0f}' if carry else ''
     number = session.round.hole.strokes + 1
-    return f'stroke {number}, {way:.1f} {length.name} to the hole{blows} [{likely}{reach}]: '
+    told = f'stroke {number}, {way / length.size:.1f} {length.name} to the hole{blows}'
+    return f'{told} [{likely}{reach}]: '
 
 
 def described(line: Any, units: str) -> str:

@@ -19,14 +19,17 @@ is left where its parent was killed.
 """
 
 import asyncio
+from collections.abc import Callable
 import json
 import os
 import signal
 import sys
-from typing import Any, Optional
+from typing import Any
 
 from . import caddie
+from .session import Lie
 from ..course import load_course
+from ..physics import Course
 
 LONGEST_LINE = 2**22  # bytes of an answer
 
@@ -35,18 +38,27 @@ class Worker:
     """The child process, started when it is first asked. One question at a time."""
 
     def __init__(self) -> None:
-        self.process, self.turn = None, asyncio.Lock()
+        self.process: asyncio.subprocess.Process | None = None
+        self.turn = asyncio.Lock()
 
-    async def ask(self, question: str, **given: Any) -> Optional[Any]:
+    async def ask(self, question: str, lie: Lie, **given: Any) -> Any:
         """Answer of a function of this module's `ANSWERS`; None where there is none."""
+        asked = {
+            'question': question,
+            'course': lie.course.path,
+            'place': [float(v) for v in lie.place],
+            'wind': [round(float(v), 2) for v in lie.wind],
+            **given,
+        }
         async with self.turn:
             if self.process is None or self.process.returncode is not None:
                 self.process = await started()
-            line = json.dumps({'question': question, **given}) + '\n'
+            to, back = self.process.stdin, self.process.stdout
+            assert to is not None and back is not None
             try:
-                self.process.stdin.write(line.encode())
-                await self.process.stdin.drain()
-                answer = await self.process.stdout.readline()
+                to.write(f'{json.dumps(asked)}\n'.encode())
+                await to.drain()
+                answer = await back.readline()
             except (ConnectionError, ValueError):
                 return None
         return json.loads(answer) if answer else None
@@ -76,34 +88,39 @@ async def started() -> asyncio.subprocess.Process:
     )
 
 
-def predict(course: tuple, place: list, wind: list, stroke: dict) -> Optional[dict]:
+def predict(course: Course, place: list, wind: list, stroke: dict) -> dict | None:
     """Where a stroke would go."""
     return caddie.prediction(course, tuple(place), caddie.Stroke(**stroke), tuple(wind))
 
 
-def slopes(course: tuple, place: list, wind: list) -> list:
+def slopes(course: Course, place: list, wind: list) -> list:
     """Slopes around a putt."""
     return caddie.slopes(course, tuple(place))
 
 
-def line(course: tuple, place: list, wind: list) -> list:
+def line(course: Course, place: list, wind: list) -> list:
     """Path of the putt that holes."""
     return caddie.line(course, tuple(place), tuple(wind))
 
 
-def choose(course: tuple, place: list, wind: list) -> dict:
+def choose(course: Course, place: list, wind: list) -> dict:
     """Choose the stroke to play."""
     return caddie.choose(course, tuple(place), tuple(wind))._asdict()
 
 
-ANSWERS = {'predict': predict, 'slopes': slopes, 'line': line, 'choose': choose}
+ANSWERS: dict[str, Callable[..., Any]] = {
+    'predict': predict,
+    'slopes': slopes,
+    'line': line,
+    'choose': choose,
+}
 
 
 def main() -> None:
     """Answer until standard input ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the parent, which ends this
     os.nice(5)
-    courses = {}
+    courses: dict[str, Course] = {}
     for line in sys.stdin:
         given = json.loads(line)
         path = given.pop('course')

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What tests of the page share: its server as a process, and one that listens as a browser does."""
+"""What tests of the page share: its server, and one that listens as a browser does."""
 
 import asyncio
 from contextlib import contextmanager, suppress
@@ -46,10 +46,8 @@ class Listener:
                 async for message in socket:
                     self.bytes += len(message.data) + 4
                     if message.type is aiohttp.WSMsgType.BINARY:
-                        self.poses += [
-                            message.data[at : at + POSE]
-                            for at in range(0, len(message.data), POSE)
-                        ]
+                        starts = range(0, len(message.data), POSE)
+                        self.poses += [message.data[at:][:POSE] for at in starts]
                         continue
                     self.events.append(json.loads(message.data))
                     if self.events[-1]['kind'] == 'course':

@@ -115,7 +115,8 @@ def color_at(page, look):
     image = Image.open(BytesIO(base64.b64decode(picture.partition(',')[2]))).convert('RGB')
     rows = np.asarray(image)
     high, wide = rows.shape[0] // 2, rows.shape[1] // 2
-    return rows[high - 20 : high + 20, wide - 40 : wide + 40].reshape(-1, 3).mean(0)
+    low, left = high - 20, wide - 40
+    return rows[low:][:40, left:][:, :80].reshape(-1, 3).mean(0)
 
 
 def from_above(x, y, z):

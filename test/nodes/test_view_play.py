@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The page's server beside a sim: it follows, publishes nothing, refuses strangers, ends in time."""
+"""The page's server beside a sim: it follows, publishes nothing, refuses strangers, ends."""
 
 import asyncio
 import json

@@ -34,7 +34,7 @@ def unpacked(raw):
     """JSON, heights and materials, as `js/land.js` reads them."""
     assert raw[:4] == b'GOLF'
     (length,) = struct.unpack('<I', raw[4:8])
-    about = json.loads(raw[8 : 8 + length])
+    about = json.loads(raw[8:][:length])
     grid = about['grid']
     count = grid['nx'] * grid['ny']
     differences = np.frombuffer(raw, '<i2', count, 8 + length).reshape(grid['ny'], grid['nx'])

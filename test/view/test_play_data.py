@@ -48,7 +48,7 @@ def unpacked(raw):
     """JSON, and rows of the one ball, as `js/recorded.js` reads them."""
     assert raw[:4] == b'PLAY'
     (length,) = struct.unpack('<I', raw[4:8])
-    about = json.loads(raw[8 : 8 + length])
+    about = json.loads(raw[8:][:length])
     return about, np.frombuffer(raw, '<f4', offset=8 + length).reshape(-1, 4)
 
 
