@@ -50,7 +50,7 @@ class Worker:
     def __init__(self):
         self.asked = []
 
-    async def ask(self, question, **given):
+    async def ask(self, question, lie, **given):
         self.asked.append((question, given))
         return None
 
