@@ -114,6 +114,7 @@ setup(
         'bag': ['rosbags>=0.10'],
         'plot': ['matplotlib', 'rosbags>=0.10'],
         'view': ['nicegui>=3.18,<4', 'rosbags>=0.10'],
+        'browser': ['playwright'],  # with a Chromium, for the tests of the page in one
         'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'docs': ['sphinx>=7.2', 'myst-parser', 'sphinx-rtd-theme'],
@@ -130,7 +131,6 @@ setup(
             'rasterio',
             'dask[distributed]',
             'nicegui>=3.18,<4',
-            'playwright',
         ],
     },
     zip_safe=False,

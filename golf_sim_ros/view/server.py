@@ -18,10 +18,11 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 import gzip
+import os
 import signal
 import socket
 import sys
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 import zlib
 
 from fastapi import Request, Response, WebSocket, WebSocketDisconnect
@@ -120,8 +121,10 @@ async def talk(socket_: WebSocket, client: Client) -> None:
             await (socket_.send_text if isinstance(message, str) else socket_.send_bytes)(message)
 
 
-def run(place: Place, title: str, opened: Callable, closing: Callable, closed: Callable) -> int:
-    """Serve until a signal comes; return the exit code.
+def run(
+    place: Place, title: str, opened: Callable, closing: Callable, closed: Callable
+) -> NoReturn:
+    """Serve until a signal comes, then end the process.
 
     Parameters
     ----------
@@ -164,13 +167,21 @@ def run(place: Place, title: str, opened: Callable, closing: Callable, closed: C
             timeout_graceful_shutdown=GRACE,
             uvicorn_logging_level='error',
         )
+        code = 0
     except SystemExit as ended:
-        return int(ended.code or 0)
-    finally:
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, signal.SIG_IGN)
-        closed()
-    return 0
+        code = 1 if ended.code else 0
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+    closed()
+    leave(code)
+
+
+def leave(code: int) -> NoReturn:
+    """End the process: all is closed, and Python would take one or two seconds to tidy up."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            stream.flush()
+    os._exit(code)
 
 
 def url(place: Place) -> str:

@@ -197,6 +197,11 @@ export class GolfView {
 
   frame(now) {
     if (!this.land || document.hidden) return;
+    this.step(now);
+  }
+
+  // Draw what is there at a time of the page's clock [s], unless nothing has changed since.
+  step(now) {
     const since = now - this.drawnAt, moving = this.source?.update(now) ?? false;
     const wait = this.slowness > SLOW ? Math.max(window.golfLeastGap ?? 0, moving ? 0 : 1.5) : moving ? 0 : IDLE;
     if (!this.changed && since < wait) return;
@@ -209,7 +214,9 @@ export class GolfView {
     const before = this.camera.position.clone();
     this.cameras.update(Math.min(since, 0.3), ball, this.land);
     this.changed ||= before.distanceTo(this.camera.position) > 1e-3;
-    if (this.pin) this.pin.wave(now % 3600, this.wind, this.camera.position.distanceTo(this.pin.position));
+    // From afar the flag is drawn larger; the one map of shadows is made of it as it is.
+    const far = this.renderer.shadowMap.needsUpdate ? 1 : this.camera.position.distanceTo(this.pin?.position ?? this.camera.position);
+    if (this.pin) this.pin.wave(now % 3600, this.wind, far);
     for (const each of this.balls) each.face(this.camera, this.land);
     for (const ring of this.rings ?? []) ring.scale.setScalar(Math.max(0.12, 0.011 * ring.position.distanceTo(this.camera.position)));
     this.onFrame(now);
