@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # make play    three shots over ROS 2: a drive, an approach, a putt; play/ keeps the recording and a picture
+# make view    a hole to play in a browser: prints its address; VIEW_ARGS='putting_green --demo' for others
 # make sim     the simulator and the wind, until Ctrl-C
 # make hard    every hard case with every preset and at three rates: docs/stability.md; HARD_ARGS='shots' for a part
 # make bench   what is fast and what is not, against baselines of the same run; BENCH_ARGS=--quick for less
@@ -22,14 +23,18 @@ BENCH_ARGS ?=
 HARD_ARGS ?=
 FUZZ_ARGS ?=
 FUZZ_FILES_ARGS ?=
+VIEW_ARGS ?=
 
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: play sim test hard fuzz bench docs lint environment docs_environment clean
+.PHONY: play view sim test hard fuzz bench docs lint environment docs_environment clean
 
 play: environment
 	@$(VENV)/bin/python tools/play.py
+
+view: environment
+	@$(VENV)/bin/play_hole $(VIEW_ARGS)
 
 sim: environment
 	@$(VENV)/bin/python tools/sim.py

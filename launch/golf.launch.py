@@ -20,8 +20,11 @@ An argument that is left out is not passed to the nodes, so it never overrides a
 """
 
 from pathlib import Path
+import tempfile
 from typing import List
 
+from golf_sim_ros.course import CourseError, load_course
+from golf_sim_ros.drawing.rviz_view import rviz_view
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
@@ -31,6 +34,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 import yaml
 
+DEFAULT_COURSE = 'golf_without_friends'  # the simulator's
 # Arguments that are parameters of the simulator; their defaults are in config/sim.yaml.
 TEXTS = {
     'course': 'name of a shipped course, or path of a course file',
@@ -145,7 +149,7 @@ def rviz(context, given, common):
         raise RuntimeError(
             f'rviz:={given["rviz"]} needs the package rviz2: nothing is started'
         ) from None
-    view = Path(FindPackageShare('golf_sim_ros').perform(context), 'rviz', 'golf.rviz')
+    view = view_on(FindPackageShare('golf_sim_ros').perform(context), given['course'])
     return Node(
         package='rviz2',
         executable='rviz2',
@@ -153,6 +157,19 @@ def rviz(context, given, common):
         parameters=[follow_clock(context, given)],
         **common,
     )
+
+
+def view_on(share, name):
+    """Path of RViz's view, from behind the tee of the course of that name along its hole."""
+    view = Path(share, 'rviz', 'golf.rviz')
+    try:
+        made = rviz_view(view.read_text(encoding='utf-8'), load_course(name or DEFAULT_COURSE))
+    except CourseError:  # the simulator will say what is wrong with it
+        return view
+    file = tempfile.NamedTemporaryFile('w', prefix='golf_', suffix='.rviz', delete=False)
+    with file:
+        file.write(made)
+    return Path(file.name)
 
 
 def follow_clock(context, given):

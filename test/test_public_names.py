@@ -25,12 +25,12 @@ ROOT = Path(__file__).resolve().parents[1]
 # fmt: off
 COMMANDS = {
     'sim_node', 'wind_node', 'shoot', 'record_play', 'resimulate', 'plot_play', 'accuracy_study',
-    'compare_shots',
+    'compare_shots', 'view_play', 'play_hole',
     'compile_physics',
 }
 SIM_PARAMETERS = {
     'course', 'rate', 'publish_rate', 'real_time_factor', 'accuracy', 'effects', 'balls',
-    'frame_id', 'publish_clock', 'engine',
+    'frame_id', 'publish_tf', 'parent_frame', 'publish_clock', 'engine',
 }
 WIND_PARAMETERS = {
     'speed', 'speed_spread', 'direction', 'direction_spread', 'interval', 'ramp', 'turbulence',

@@ -33,7 +33,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 EXTRAS = {'jazzy': 'ros', 'kilted': 'ros-kilted'}
 # numba, too: the tests and `make bench` hold compiled code against plain Python.
-EVERYWHERE = 'fast,test,plot,study,bag'
+EVERYWHERE = 'fast,test,plot,study,bag,view'
 
 
 def main(folder, distro='jazzy'):

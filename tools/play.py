@@ -32,7 +32,7 @@ from golf_sim_ros.shot_input.launch_monitor import Launch, velocity_and_spin
 import numpy as np
 import rclpy
 from rclpy.signals import SignalHandlerOptions
-from running import BIN, Failed, nodes, Spectator
+from running import BIN, Failed, nodes, Spectator, start
 
 LONGEST = 360.0  # s: a shot lasts 300 s at most
 LEFT = Path(__file__).resolve().parent.parent / 'play'  # what is left of the play
@@ -50,9 +50,11 @@ def main():
     clear()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     try:
-        with nodes(('record_play', '--output', BAG, '--balls', 'ball')) as processes:
+        with nodes() as processes:
             spectator = Spectator(processes)
             spectator.wait_for_ball()
+            start(processes, 'record_play', '--output', BAG, '--balls', 'ball')
+            spectator.wait_for_recorder()
             summarize(play(spectator))
         draw()
     except Failed as failure:
@@ -84,7 +86,13 @@ def draw():
     code = subprocess.call([BIN / 'plot_play', BAG, '--output', PICTURE])
     if code != 0:
         raise Failed(f'the play was not drawn, exit code {code}')
-    print(f'{BAG}: the recording; `resimulate` plays it again')
+    commands, bag = os.path.relpath(BIN), os.path.relpath(BAG)
+    print(
+        f'{BAG}: the recording\n'
+        f'  {commands}/view_play {bag}                 looks at it in a browser\n'
+        f'  {commands}/view_play {bag} -o play.html    makes one file of that\n'
+        f'  {commands}/resimulate {bag}                plays it again, to the bit'
+    )
 
 
 def play(spectator):

@@ -30,9 +30,9 @@ from rclpy.subscription import Subscription
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker, MarkerArray
 
-from .reachability import Reach, SILENT
-from ..nodes.conversions import fill, Vector
+from ..nodes.conversions import strike, Vector
 from ..nodes.older_rclpy import publisher_count
+from ..nodes.reachability import Reach, SILENT
 
 # A result repeats the strike rounded to 1e-4.
 ROUNDING = 0.6e-4
@@ -200,7 +200,7 @@ class Player(Node):
         beat = self._listen_for_good(velocity, spin) if self.reach.is_offered() else None
         self.struck_at = time.monotonic()
         self.first_position = None
-        self._shots.publish(twist(velocity, spin))
+        self._shots.publish(strike(velocity, spin))
         while not self._wait(lambda: self._own_result(velocity, spin), 0.5):
             if beat:
                 self._look_after(beat)
@@ -299,11 +299,3 @@ class Player(Node):
 
     def _take_markers(self, message: MarkerArray) -> None:
         self.markers = message.markers
-
-
-def twist(velocity: Vector, spin: Vector) -> Twist:
-    """Message that strikes a ball with this velocity and spin."""
-    message = Twist()
-    fill(message.linear, velocity)
-    fill(message.angular, spin)
-    return message

@@ -17,7 +17,7 @@
 from collections.abc import Iterable
 from typing import Any
 
-from geometry_msgs.msg import PointStamped, PoseStamped, TwistStamped
+from geometry_msgs.msg import PointStamped, PoseStamped, Twist, TwistStamped
 import numpy as np
 from rclpy.time import Time
 from std_msgs.msg import Header
@@ -61,6 +61,14 @@ def twist(head: Header, ball: BallState) -> TwistStamped:
     message = TwistStamped(header=head)
     fill(message.twist.linear, ball.velocity)
     fill(message.twist.angular, ball.spin)
+    return message
+
+
+def strike(velocity: Vector, spin: Vector) -> Twist:
+    """Make the Twist that strikes a ball with this velocity and spin."""
+    message = Twist()
+    fill(message.linear, velocity)
+    fill(message.angular, spin)
     return message
 
 

@@ -21,6 +21,7 @@ from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParam
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
+from . import transforms
 from .command_line import Program
 from .parameter_values import fit, warn_of_unknown
 from ..physics import ACCURACY
@@ -37,6 +38,8 @@ class Parameters(NamedTuple):
     effects: tuple[str, ...] = ('auto',)
     balls: tuple[str, ...] = ('ball',)
     frame_id: str = 'course'
+    publish_tf: bool = transforms.IS_HERE
+    parent_frame: str = 'map'
     publish_clock: bool = False
     engine: str = 'auto'
 
@@ -52,6 +55,8 @@ MEANING = {
     'effects': "effects to simulate, or ['auto']: just those that the scene calls for",
     'balls': 'names of the balls; the first one is in play',
     'frame_id': 'frame of every stamp, and the frame in which inputs are understood',
+    'publish_tf': 'whether to publish transforms of course, tee, hole and balls; needs tf2_msgs',
+    'parent_frame': 'frame around that of the course, for publish_tf',
     'publish_clock': 'whether to publish simulated time on /clock, and to stamp with it',
     'engine': 'what runs the physics: python, plain Python; compiled, the compiled engine; auto, '
     'Python until it takes too much of a core',
@@ -90,6 +95,9 @@ def declared(node: Node) -> Parameters:
         raise ValueError(f'use_sim_time must be false: {OWN_TIME}')
     if 0.0 < values.real_time_factor < SLOWEST:
         raise ValueError(too_slow(values.real_time_factor))
+    reason = transforms.objection(values) if values.publish_tf else ''
+    if reason:
+        raise ValueError(reason)
     return values
 
 

@@ -34,6 +34,7 @@ from .markers.course_markers import course_markers
 from .markers.play_markers import Scene
 from .older_rclpy import on_match, watch
 from .parameters import Parameters
+from .transforms import Transforms
 from ..physics import BallState, Collision, Result, World
 from ..recording.json_format import collision_text, rejection_text, result_text, text
 
@@ -78,6 +79,10 @@ class Publishers:
         )
         self.next_clock = monotonic()
         self.markers = Scene(world)
+        self.transforms = None
+        if given.publish_tf:
+            parent, head = given.parent_frame, self.head(world.time)
+            self.transforms = Transforms(node, world.course, parent, self.frame, head)
         self.config = ''
         self.entries_since = 0
         self.open_balls(on_match(on_follower))
@@ -135,6 +140,8 @@ class Publishers:
                 self.twists[name].publish(conversions.twist(head, ball))
             if name in moving:
                 self.markers.trails[name].add(ball.position)
+        if self.transforms:
+            self.transforms.balls(head, balls, orientations)
 
     def path_begins(self, ball: str) -> None:
         """Begin the ball's trail anew."""
@@ -153,6 +160,7 @@ class Publishers:
 
     def result(self, result: Result, shot: int) -> None:
         """Publish the end of strike number `shot`."""
+        self.markers.ended = result if result.status != 'failed' else None
         self.of_results.publish(String(data=result_text(result, shot)))
 
     def rejection(self, shot: int, ball: str, velocity: tuple, spin: tuple, reason: str) -> None:

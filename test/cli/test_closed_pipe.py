@@ -22,7 +22,16 @@ from golf_sim_ros.cli.closed_pipe import UNREAD
 import pytest
 from recorded_play import bag, Sim
 
-TOOLS = ('resimulate', 'plot_play', 'shoot', 'record_play', 'accuracy_study', 'compare_shots')
+TOOLS = (
+    'resimulate',
+    'plot_play',
+    'shoot',
+    'record_play',
+    'accuracy_study',
+    'compare_shots',
+    'view_play',
+    'play_hole',
+)
 PLAIN = {**os.environ, 'NUMBA_DISABLE_JIT': '1', 'MPLBACKEND': 'agg'}
 
 

@@ -301,7 +301,7 @@ def test_the_play_is_a_handful_of_markers_with_every_ball_where_it_is(world):
     scene = Scene(world)
     scene.trails['red'].add((1.0, 2.0, 3.0))
     array = scene.markers(header('course', 0, 1.5), world, (0.0, 3.0, 0.0))
-    assert len(array.markers) == 2 + 2 * len(world.names)
+    assert len(array.markers) == 4 + 3 * len(world.names)
     balls = [marker for marker in array.markers if marker.ns == 'ball']
     for name, ball in zip(world.names, balls):
         place = ball.pose.position

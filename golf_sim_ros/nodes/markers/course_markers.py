@@ -25,6 +25,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from ...drawing.polygon_triangles import Polygon, triangles
 from ...drawing.relief import relief
+from ...drawing.sunlight import banded, lit
 from ...drawing.zone_triangles import cells, curved, flat, sheet
 from ...physics import Course, geometry, ground_height, Material
 from ...physics.geometry.cup import DEPTH, RADIUS
@@ -72,9 +73,16 @@ def course_markers(course: Course, frame_id: str) -> MarkerArray:
 
 
 def ground_marker(number: int, material: Material, corners: Iterable[Corner]) -> Marker:
-    """Make the TRIANGLE_LIST of all that is of `material`."""
+    """Make the TRIANGLE_LIST of all that is of `material`.
+
+    Viewers light a list without colours of its own, half of it ambient, and show it nearly black:
+    each point has a colour, in which the sun is baked.
+    """
     made = marker('ground', number, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), material.color)
-    made.points = points(corners)
+    places = np.array([tuple(corner) for corner in corners], float).reshape(-1, 3, 3)
+    made.points = points(places.reshape(-1, 3))
+    shades = [rgb(color) for color in lit(places, material)]
+    made.colors = [shade for shade in shades for _ in range(3)]
     return made
 
 
@@ -146,7 +154,10 @@ def lifted(place: Corner, normal: Corner, pieces: Painted) -> Painted:
         return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
 
     return [
-        (material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
+        (
+            material,
+            [[(x, y, height(x, y)) for x, y in corners] for corners in banded(found, material)],
+        )
         for material, found in pieces
     ]
 
@@ -220,6 +231,7 @@ def flagstick(x: float, y: float, z: float) -> list[Marker]:
     put(stick, x, y, z + 0.5 * height)
     flag = marker('hole', 2, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), RED)
     flag.points = points((x + ahead, y, z + over) for ahead, over in FLAG)
+    flag.colors = [rgb(RED)] * len(flag.points)
     return [stick, flag]
 
 
@@ -238,6 +250,7 @@ def water(course: Course) -> list[Marker]:
         for triangle in triangles(pond.polygon, pond.cut)
         for x, y in triangle
     )
+    made.colors = [rgb(BLUE, CLEAR)] * len(made.points)
     return [made]
 
 
@@ -268,9 +281,14 @@ def marker(
     """Marker of `kind` at the origin."""
     made = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD)
     made.scale.x, made.scale.y, made.scale.z = scale
-    made.color = ColorRGBA(r=float(color[0]), g=float(color[1]), b=float(color[2]), a=1.0)
+    made.color = rgb(color)
     made.pose.orientation.w = 1.0
     return made
+
+
+def rgb(color: Sequence[float], alpha: float = 1.0) -> ColorRGBA:
+    """Make the message of a colour."""
+    return ColorRGBA(r=float(color[0]), g=float(color[1]), b=float(color[2]), a=alpha)
 
 
 def put(made: Marker, x: float, y: float, z: float) -> None:

@@ -16,18 +16,25 @@
 
 from collections import deque
 from collections.abc import Sequence
+from math import hypot
 
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from .course_markers import marker, points, put
-from ...physics import ground_height, World
+from ...physics import Course, ground_height, Result, World
 
 TRAIL = 300  # points at most of a trail
 TRAILS = 3000  # points at most of all trails,
 LEAST = 20  # but so many every trail may have
 CONTACTS = 20  # last contacts that are shown
-TRAIL_WIDTH = 0.05  # m
+TRAIL_WIDTH = 0.2  # m: less is no pixel from afar
+HALO = 0.6  # m across, around a ball that is no pixel either
+SHEER = 0.3  # how much of the halo is seen
+TEXT_SIZE = 2.0  # m
+OVER_PIN = 4.0  # m over the hole, where the distance stands
+OVER_BALL = 2.0  # m over where a shot ended, where its result stands
+NEAR = 20.0  # m below which the distance is told to a decimetre
 CONTACT_SIZE = 0.15  # m
 ARROW = (0.15, 0.4, 0.5)  # m: diameters of shaft and head, length of the head
 ARROW_HEIGHT = 10.0  # m over the tee, where wind is given
@@ -75,19 +82,24 @@ class Scene:
         found = ground_height(world.course, x, y)
         assert found is not None, 'a course is refused that has no ground under its tee'
         self.place = x, y, found[0]
+        self.ended: Result | None = None  # the last shot that did
+        self.pin = hole_of(world.course)
 
     def markers(self, head: Header, world: World, wind: Sequence[float]) -> MarkerArray:
         """Make the MarkerArray of now.
 
         `world` has the balls, `wind` [m/s] an arrow, a metre for each m/s.
         """
-        found = [self.hits(), self.arrow(wind)]
+        found = [self.hits(), self.arrow(wind), self.distance(world), self.result()]
         for number, (name, trail) in enumerate(self.trails.items()):
             ball = marker('ball', number, Marker.SPHERE, (self.size,) * 3, BALL)
             put(ball, *world[name].position)
             path = marker('trail', number, Marker.LINE_STRIP, (TRAIL_WIDTH, 0.0, 0.0), PATH)
             path.points = points([*trail.places, world[name].position])
-            found += [ball, path]
+            halo = marker('halo', number, Marker.SPHERE, (HALO,) * 3, BALL)
+            halo.color.a = SHEER
+            put(halo, *world[name].position)
+            found += [ball, halo, path]
         for made in found:
             made.header = head
         return MarkerArray(markers=found)
@@ -105,6 +117,38 @@ class Scene:
         made = marker('wind', 0, Marker.ARROW, ARROW, AIR)
         made.points = points([(x, y, z), (x + wind[0], y + wind[1], z + wind[2])])
         return hidden(made, not any(wind))
+
+    def distance(self, world: World) -> Marker:
+        """Text over the pin: how far the ball in play is from it."""
+        if self.pin is None:
+            return hidden(text(0, '', self.place), True)
+        x, y, z = self.pin
+        ball = world[world.names[0]].position
+        way = hypot(ball[0] - x, ball[1] - y)
+        return text(0, f'{way:.{int(way < NEAR)}f} m', (x, y, z + OVER_PIN))
+
+    def result(self) -> Marker:
+        """Text over where the last shot ended: how far it went, and on what it lies."""
+        if self.ended is None:
+            return hidden(text(1, '', self.place), True)
+        x, y, z = self.ended.position
+        end = self.ended.lie if self.ended.status == 'at_rest' else self.ended.status
+        told = f'{self.ended.total:.1f} m, {end.replace("_", " ")}'
+        return text(1, told, (x, y, z + OVER_BALL))
+
+
+def hole_of(course: Course) -> tuple[float, float, float] | None:
+    """Middle of the hole on the ground; None where there is none."""
+    found = ground_height(course, *course.hole) if course.hole else None
+    return (*course.hole, found[0]) if course.hole and found else None
+
+
+def text(number: int, words: str, place: Sequence[float]) -> Marker:
+    """Words at a place, facing who looks."""
+    made = marker('text', number, Marker.TEXT_VIEW_FACING, (0.0, 0.0, TEXT_SIZE), BALL)
+    made.text = words
+    put(made, *place)
+    return made
 
 
 def hidden(made: Marker, empty: bool) -> Marker:
