@@ -18,17 +18,20 @@ Needs no ROS.
 """
 
 import argparse
+from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
 import sys
 
 from .pipes import in_pipes
-from ..comparison.errors import compare, figures, LAWS
+from ..comparison.errors import compare, Comparison, Figures, figures, LAWS
 from ..comparison.page import draw, everything, PAGE, page, PICTURE, table
 from ..course.course_file import air
 from ..course.schema import CourseError
 from ..optional_packages import how_to_get
+from ..physics import Air
 from ..physics.engine.engines import prefer_compiled
+from ..shot_input.launch_monitor import Vector
 from ..shot_input.monitor_columns import FIELDS, MONITORS
 from ..shot_input.monitor_file import How, read_monitor_file, TableError
 from ..shot_input.units import UNITS
@@ -50,7 +53,7 @@ WRONG = 2
 
 
 @in_pipes
-def main(args=None) -> int:
+def main(args: Sequence[str] | None = None) -> int:
     """Compare the shots of a file and write the page; return the exit code."""
     options = parser().parse_args(args)
     try:
@@ -80,13 +83,13 @@ def main(args=None) -> int:
     return 0
 
 
-def failed(why):
+def failed(why: Exception) -> int:
     """Say why there is no page in one line; the exit code."""
     print(f'compare_shots: {" ".join(str(why).split())}', file=sys.stderr)
     return WRONG
 
 
-def picture(path, comparison, shown):
+def picture(path: Path, comparison: Comparison, shown: Figures) -> bool:
     """Draw the picture, or say what is missing for it; whether it is there."""
     try:
         draw(path, comparison, shown)
@@ -96,7 +99,7 @@ def picture(path, comparison, shown):
     return True
 
 
-def defaults(name):
+def defaults(name: str | None) -> dict[str, str]:
     """Units by field of columns that have none, of the set of units asked for."""
     if name is None:
         return {}
@@ -104,7 +107,7 @@ def defaults(name):
     return {'ball_speed': units.speed.name, 'carry': units.length.name, 'apex': units.length.name}
 
 
-def air_of(options):
+def air_of(options: argparse.Namespace) -> dict[str, float]:
     """Entry ``air`` of a course file that the options mean."""
     given = {
         'altitude': options.altitude,
@@ -115,7 +118,7 @@ def air_of(options):
     return {name: value for name, value in given.items() if value is not None}
 
 
-def conditions(weather, wind):
+def conditions(weather: Air, wind: Vector) -> list[str]:
     """Sentences about the air."""
     told = (
         f'Air: {weather.temperature - 273.15:.1f} degrees Celsius, '
@@ -127,7 +130,7 @@ def conditions(weather, wind):
     return [told, f'wind {wind[0]:+g} m/s towards the target and {wind[1]:+g} m/s to the left.']
 
 
-def parser():
+def parser() -> argparse.ArgumentParser:
     """Parser of the command line."""
     made = argparse.ArgumentParser(
         prog='compare_shots',
@@ -160,7 +163,7 @@ def parser():
     return made
 
 
-def add_table(group):
+def add_table(group: argparse._ArgumentGroup) -> None:
     """Add the options on columns and units."""
     group.add_argument(
         '--map',
@@ -185,7 +188,7 @@ def add_table(group):
     )
 
 
-def add_air(group):
+def add_air(group: argparse._ArgumentGroup) -> None:
     """Add the options on air and wind."""
     group.add_argument('--altitude', type=finite, metavar='M', help='pressure of this height')
     group.add_argument(
@@ -203,7 +206,7 @@ def add_air(group):
     )
 
 
-def finite(text):
+def finite(text: str) -> float:
     """Parse a finite number."""
     try:
         number = float(text)
@@ -214,7 +217,7 @@ def finite(text):
     return number
 
 
-def breeze(text):
+def breeze(text: str) -> float:
     """Parse a part of the wind [m/s]."""
     number = finite(text)
     if abs(number) > 70.0:
@@ -222,7 +225,7 @@ def breeze(text):
     return number
 
 
-def kelvin(text):
+def kelvin(text: str) -> float:
     """Parse a temperature [K]."""
     scale, number = text[-1:].upper(), text[:-1]
     if scale == 'C':
@@ -232,7 +235,7 @@ def kelvin(text):
     return finite(text)
 
 
-def pair(text):
+def pair(text: str) -> tuple[str, str]:
     """Parse FIELD=VALUE, with a known field."""
     name, sign, value = text.partition('=')
     if not sign or not value.strip():
@@ -242,12 +245,12 @@ def pair(text):
     return name, value.strip()
 
 
-def named_column(text):
+def named_column(text: str) -> tuple[str, str]:
     """Parse FIELD=COLUMN."""
     return pair(text)
 
 
-def named_unit(text):
+def named_unit(text: str) -> tuple[str, str]:
     """Parse FIELD=UNIT, with a unit that the field may have."""
     name, unit = pair(text)
     known = FIELDS[name].units

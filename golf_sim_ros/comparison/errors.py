@@ -14,13 +14,15 @@
 
 """Errors of simulated flights against what a launch monitor told, by law and by group."""
 
+from collections.abc import Iterable, Sequence
 from math import inf
 from typing import NamedTuple
 
 import numpy as np
 
 from ..physics import Air, Course, Material, Plane, Restitution, simulate_many
-from ..shot_input.launch_monitor import velocity_and_spin
+from ..shot_input.launch_monitor import Launch, Vector, velocity_and_spin
+from ..shot_input.monitor_file import MonitorShots
 from ..shot_input.units import DEGREE, Unit, Units
 
 # Sets of effects that make a law of flight, by the name it is asked for.
@@ -38,6 +40,8 @@ SPIN_RATIOS = (0.0, 0.06, 0.09, 0.13, 0.2, 0.3, 0.5, inf)  # borders of the bins
 SPEEDS = 20.0  # mph, or m/s: width of the bins
 SECOND = Unit('s', 1.0)
 STANDARD = Air()
+
+Figures = tuple[tuple[str, Unit], ...]  # name and unit of each
 
 
 class Group(NamedTuple):
@@ -61,12 +65,18 @@ class Comparison(NamedTuple):
         Spin ratios at launch.
     """
 
-    errors: dict
-    groups: dict
+    errors: dict[str, np.ndarray]
+    groups: dict[str, list[Group]]
     ratios: np.ndarray
 
 
-def compare(shots, laws, units: Units, air: Air = STANDARD, wind=(0.0, 0.0, 0.0)) -> Comparison:
+def compare(
+    shots: MonitorShots,
+    laws: Sequence[str],
+    units: Units,
+    air: Air = STANDARD,
+    wind: Vector = (0.0, 0.0, 0.0),
+) -> Comparison:
     """Fly the shots of a launch monitor by each of the laws and compare.
 
     Parameters
@@ -102,7 +112,9 @@ def compare(shots, laws, units: Units, air: Air = STANDARD, wind=(0.0, 0.0, 0.0)
     return Comparison(errors, groups, ratios)
 
 
-def flown(launches, course, effects, wind):
+def flown(
+    launches: Iterable[Launch], course: Course, effects: Sequence[str], wind: Vector
+) -> np.ndarray:
     """Carry, apex [m], landing angle [rad] and time [s] of flights, (4, n); nan: one fails."""
     velocities, spins = map(np.array, zip(*map(velocity_and_spin, launches)))
     blowing = ('wind',) if any(wind) else ()
@@ -115,7 +127,7 @@ def flown(launches, course, effects, wind):
     return found
 
 
-def by_club(clubs):
+def by_club(clubs: Sequence[str]) -> list[Group]:
     """`Group` of each club, in the order in which they come; none where none is named."""
     if not any(clubs):
         return []
@@ -123,7 +135,7 @@ def by_club(clubs):
     return [Group(name or 'no club named', names == name) for name in dict.fromkeys(clubs)]
 
 
-def by_bin(values, borders):
+def by_bin(values: np.ndarray, borders: Sequence[float] | np.ndarray) -> list[Group]:
     """`Group` of each bin that holds any of the values."""
     bins = [
         Group(
@@ -135,7 +147,7 @@ def by_bin(values, borders):
     return [group for group in bins if group.shots.any()]
 
 
-def bias_and_spread(errors):
+def bias_and_spread(errors: np.ndarray) -> tuple[float, float, int]:
     """Mean and standard deviation of those errors that are known, and how many those are."""
     known = errors[np.isfinite(errors)]
     if not len(known):
@@ -143,7 +155,7 @@ def bias_and_spread(errors):
     return float(known.mean()), float(known.std()), len(known)
 
 
-def figures(units: Units):
+def figures(units: Units) -> Figures:
     """Name and unit of each of the figures compared."""
     return (
         ('carry', units.length),

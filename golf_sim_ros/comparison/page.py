@@ -14,22 +14,28 @@
 
 """Page and picture of a comparison with a launch monitor."""
 
+from collections.abc import Iterable, Mapping
 from math import isnan
+from pathlib import Path
 
 import numpy as np
 
-from .errors import bias_and_spread, Group
+from .errors import bias_and_spread, Comparison, Figures, Group
+from ..shot_input.monitor_file import MonitorShots
+from ..shot_input.units import Unit
 
 PICTURE, PAGE = 'comparison.png', 'comparison.md'
 
 
-def cell(errors, unit):
+def cell(errors: np.ndarray, unit: Unit) -> str:
     """Bias and spread as text, or '' where nothing is known."""
     mean, deviation, count = bias_and_spread(errors / unit.size)
     return f'{mean:+.2f} +- {deviation:.2f}' if count else ''
 
 
-def table(heading, groups, errors, shown):
+def table(
+    heading: str, groups: Iterable[Group], errors: Mapping[str, np.ndarray], shown: Figures
+) -> str:
     """Markdown table, a line for each group and law."""
     known = [
         i for i, _ in enumerate(shown) if any(np.isfinite(law[i]).any() for law in errors.values())
@@ -46,17 +52,24 @@ def table(heading, groups, errors, shown):
     return '\n'.join(lines)
 
 
-def safe(text):
+def safe(text: str) -> str:
     """Text that cannot end a cell of a table."""
     return ' '.join(text.replace('|', '/').split())
 
 
-def everything(comparison):
+def everything(comparison: Comparison) -> list[Group]:
     """`Group` of all shots."""
     return [Group('all', np.ones(len(comparison.ratios), bool))]
 
 
-def page(title, shots, comparison, shown, notes, picture=PICTURE):
+def page(
+    title: str,
+    shots: MonitorShots,
+    comparison: Comparison,
+    shown: Figures,
+    notes: Iterable[str],
+    picture: str = PICTURE,
+) -> str:
     """Markdown page: what was compared with what, every table, and `picture` if there is one."""
     left = [f'{count} rows {reason}' for reason, count in shots.left_out.items()]
     lines = [
@@ -80,7 +93,7 @@ def page(title, shots, comparison, shown, notes, picture=PICTURE):
     return '\n'.join(lines) + '\n'
 
 
-def draw(path, comparison, shown):
+def draw(path: Path, comparison: Comparison, shown: Figures) -> None:
     """Draw the errors of the first figure that was told: over the spin ratio, and by group."""
     import matplotlib
 

@@ -14,6 +14,7 @@
 
 """Columns of launch monitors' exports: their names and units, and whose they are."""
 
+from collections.abc import Collection
 import re
 from typing import NamedTuple
 
@@ -44,9 +45,10 @@ ALL_UNITS = {*SPEEDS, *ANGLES, *SPINS, *LENGTHS, *TIMES}
 class Field(NamedTuple):
     """A figure of a shot: units it may have, and names, as `plain` leaves them, best first."""
 
-    units: dict
-    names: tuple
-    default: float = None  # the unit where none is told: angles and spins have no other in use
+    units: dict[str, float]
+    names: tuple[str, ...]
+    # The unit where none is told: angles and spins have no other in use.
+    default: float | None = None
 
 
 FIELDS = {
@@ -140,7 +142,7 @@ class Monitor(NamedTuple):
     """A make of launch monitors: columns that only its exports have, and what its carry is."""
 
     title: str
-    columns: frozenset
+    columns: frozenset[str]
     carry: str
 
 
@@ -201,7 +203,7 @@ UNKNOWN = Monitor(
 SIGNS = 2  # columns of its own, by which a monitor is known
 
 
-def plain(header):
+def plain(header: str) -> tuple[str, str]:
     """Name of a column, lower-case letters and digits, and its unit or '', of what a file says.
 
     ``Ball Speed (mph)``, ``ball_speed [mph]`` and ``ball_speed_mph`` are the same.
@@ -218,7 +220,7 @@ def plain(header):
     return ''.join(re.findall(r'[a-z0-9]+', text)), unit
 
 
-def monitor_of(names):
+def monitor_of(names: Collection[str]) -> Monitor:
     """`Monitor` that has columns of these names, plain ones."""
     best = max(MONITORS.values(), key=lambda monitor: len(monitor.columns & set(names)))
     return best if len(best.columns & set(names)) >= SIGNS else UNKNOWN

@@ -14,6 +14,7 @@
 
 """Shots from a launch monitor's export: any table as CSV, in the units and spellings it has."""
 
+from collections.abc import Mapping, Sequence
 import csv
 from io import StringIO
 from math import hypot, isfinite, isnan, nan, sin
@@ -39,11 +40,13 @@ SUMMARY = 'of averages'
 SIDES = {'l': -1.0, 'left': -1.0, 'r': 1.0, 'right': 1.0}
 FASTEST, FASTEST_SPIN = 150.0, 2500.0  # m/s, rad/s: what can be simulated
 
+Read = tuple[str, Launch, list[float]]  # club, launch and told figures of a row
+
 
 class TableError(ValueError):
     """A table that cannot be used: one line that says where and why."""
 
-    def __init__(self, message):
+    def __init__(self, message: object) -> None:
         letters = (letter if letter.isprintable() else '?' for letter in str(message))
         super().__init__(''.join(letters))
 
@@ -64,19 +67,19 @@ class MonitorShots(NamedTuple):
         How many rows were left out, by reason.
     """
 
-    clubs: tuple
-    launches: tuple
+    clubs: tuple[str, ...]
+    launches: tuple[Launch, ...]
     told: np.ndarray
     monitor: Monitor
-    left_out: dict
+    left_out: dict[str, int]
 
 
 class Column(NamedTuple):
     """Column of a file: number, what the file calls it, and one of its units in SI, or None."""
 
-    index: int
+    index: int  # type: ignore[assignment]  # hides tuple.index
     header: str
-    unit: float
+    unit: float | None
 
 
 class How(NamedTuple):
@@ -92,15 +95,15 @@ class How(NamedTuple):
         Units of those fields for which neither says any.
     """
 
-    columns: dict = {}
-    units: dict = {}
-    default: dict = {}
+    columns: dict[str, str] = {}
+    units: dict[str, str] = {}
+    default: dict[str, str] = {}
 
 
 AS_TOLD = How()
 
 
-def read_monitor_file(path: Path, how: How = AS_TOLD) -> MonitorShots:
+def read_monitor_file(path: str | Path, how: How = AS_TOLD) -> MonitorShots:
     """Read the shots of a launch monitor's export.
 
     Parameters
@@ -125,7 +128,7 @@ def read_monitor_file(path: Path, how: How = AS_TOLD) -> MonitorShots:
         raise TableError(f'{path}: {error.strerror or error}') from None
 
 
-def text_of(path):
+def text_of(path: Path) -> str:
     """Text of a file, in whatever encoding spreadsheets write."""
     if path.exists() and not path.is_file():
         raise TableError('is no file')
@@ -143,7 +146,7 @@ def text_of(path):
         return raw.decode('cp1252', 'replace')
 
 
-def shots_of(text, how=AS_TOLD):
+def shots_of(text: str, how: How = AS_TOLD) -> MonitorShots:
     """`MonitorShots` of the text of a table."""
     delimiter, start, rows = header_of(text, how)
     header = [cell.strip() for cell in rows[start]]
@@ -151,12 +154,13 @@ def shots_of(text, how=AS_TOLD):
     first = start + 1
     body = list(enumerate(rows[first:], first + 1))
     if body and is_units(body[0][1]):
-        told = [cell.strip(' []()').lower() for cell in body[0][1]]
-        columns = {name: with_unit(name, column, told) for name, column in columns.items()}
+        words = [cell.strip(' []()').lower() for cell in body[0][1]]
+        columns = {name: with_unit(name, column, words) for name, column in columns.items()}
         body = body[1:]
     columns = {name: settled(name, column, how) for name, column in columns.items()}
     check_needed(columns, header)
-    kept, left_out = [], {}
+    kept: list[Read] = []
+    left_out: dict[str, int] = {}
     for line, row in body:
         if not is_data(row, header):
             continue
@@ -173,9 +177,9 @@ def shots_of(text, how=AS_TOLD):
     return MonitorShots(clubs, launches, np.array(told).T, monitor, left_out)
 
 
-def header_of(text, how):
+def header_of(text: str, how: How) -> tuple[str, int, list[list[str]]]:
     """Delimiter, the one that shows most columns, number of the header's row, and all rows."""
-    best = 0, '', 0, []
+    best: tuple[int, str, int, list[list[str]]] = 0, '', 0, []
     for delimiter in DELIMITERS:
         rows = list(csv.reader(StringIO(text, newline=''), delimiter=delimiter))
         for number, row in enumerate(rows[:PREAMBLE]):
@@ -194,7 +198,7 @@ def header_of(text, how):
     return delimiter, number, rows
 
 
-def named(header, how):
+def named(header: Sequence[str], how: How) -> dict[str, Column]:
     """`Column` by field of what is known in a header."""
     cells = [plain(cell) for cell in header]
     found = {}
@@ -221,7 +225,7 @@ def named(header, how):
     return found
 
 
-def columns_of(header, how):
+def columns_of(header: Sequence[str], how: How) -> dict[str, Column]:
     """`Column` by field, with all that `how` names."""
     found = named(header, how)
     for name, wanted in how.columns.items():
@@ -230,26 +234,26 @@ def columns_of(header, how):
     return found
 
 
-def listed(header):
+def listed(header: Sequence[str]) -> str:
     """Headers of a file, shortened."""
     text = ', '.join(cell for cell in header if cell)
     return text if len(text) <= 160 else text[:150] + ' ...'
 
 
-def is_units(row):
+def is_units(row: Sequence[str]) -> bool:
     """Whether a row tells units, and nothing else."""
     cells = [cell.strip(' []()').lower() for cell in row if cell.strip(' []()')]
     return bool(cells) and all(cell in ALL_UNITS for cell in cells)
 
 
-def with_unit(name, column, told):
+def with_unit(name: str, column: Column, told: Sequence[str]) -> Column:
     """`Column` with its unit from a row of units, if that tells one that fits."""
     unit = told[column.index] if column.index < len(told) else ''
     size = FIELDS[name].units.get(unit, column.unit)
     return column._replace(unit=size)
 
 
-def settled(name, column, how):
+def settled(name: str, column: Column, how: How) -> Column:
     """`Column` with a unit: what the caller says, else the file, else what is usual."""
     field: Field = FIELDS[name]
     if name in how.units:
@@ -259,7 +263,7 @@ def settled(name, column, how):
     return column if column.unit is not None else column._replace(unit=field.default)
 
 
-def check_needed(columns, header):
+def check_needed(columns: Mapping[str, Column], header: Sequence[str]) -> None:
     """Refuse a table without launch, or without anything to compare."""
     missing = [name for name in ('ball_speed', 'launch') if name not in columns]
     if 'spin' not in columns and 'backspin' not in columns:
@@ -273,7 +277,7 @@ def check_needed(columns, header):
         )
 
 
-def is_data(row, header):
+def is_data(row: Sequence[str], header: list[str]) -> bool:
     """Whether a row is one of shots: not empty, no comment, no repeated header or units."""
     cells = [cell.strip() for cell in row]
     if not any(cells) or cells[0].startswith('#') or is_units(row):
@@ -281,12 +285,14 @@ def is_data(row, header):
     return cells[: len(header)] != header[: len(cells)]
 
 
-def is_summary(row):
+def is_summary(row: Sequence[str]) -> bool:
     """Whether a row is no shot but an average or the like of shots."""
     return any(cell.lower().strip(' .:') in SUMMARIES for cell in row)
 
 
-def shot_of(row, columns, place):
+def shot_of(
+    row: Sequence[str], columns: Mapping[str, Column], place: tuple[int, bool]
+) -> Read | str:
     """Club, `Launch` and told figures of a row, or why it is left out."""
     value = {
         name: figure(row, name, column, place)
@@ -320,7 +326,7 @@ def shot_of(row, columns, place):
     return label, launch, told
 
 
-def spins_of(value):
+def spins_of(value: Mapping[str, float]) -> tuple[float, float]:
     """Backspin and sidespin, from both, or from spin and axis; nan for none."""
     back, side = value.get('backspin', nan), value.get('sidespin', nan)
     spin, axis = value.get('spin', nan), value.get('axis', nan)
@@ -329,7 +335,7 @@ def spins_of(value):
     return parted(spin, 0.0 if isnan(axis) else axis)
 
 
-def figure(row, name, column, place):
+def figure(row: Sequence[str], name: str, column: Column, place: tuple[int, bool]) -> float:
     """Read a cell as a number in SI, or nan."""
     line, decimal_comma = place
     cell = row[column.index] if column.index < len(row) else ''
@@ -357,7 +363,7 @@ PARTS = re.compile(
 GROUPED = re.compile(r"[-+]?\d{1,3}([\s']\d{3})+([.,]\d+)?")
 
 
-def parsed(cell, field, name, decimal_comma):
+def parsed(cell: str, field: Field, name: str, decimal_comma: bool) -> tuple[float, str]:
     """Parse a number and its unit or '', as in ``12.5``, ``2.2 L`` or ``150 mph``."""
     text = re.sub(r'[\u00a0\u202f\u2009]', ' ', cell).replace('\u2212', '-').strip().lower()
     if text in NOTHING:
@@ -382,7 +388,7 @@ def parsed(cell, field, name, decimal_comma):
     return number * (SIDES[side] if side else 1.0), unit
 
 
-def with_point(number, name, decimal_comma):
+def with_point(number: str, name: str, decimal_comma: bool) -> str:
     """Digits of a number with a decimal point, and nothing between thousands."""
     number = number.strip()
     if re.search(r"[\s']", number) and not GROUPED.fullmatch(number):
