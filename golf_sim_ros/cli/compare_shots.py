@@ -23,7 +23,7 @@ from math import isfinite
 from pathlib import Path
 import sys
 
-from .pipes import in_pipes
+from .closed_pipe import in_pipes
 from ..comparison.errors import compare, Comparison, Figures, figures, LAWS
 from ..comparison.page import draw, everything, PAGE, page, PICTURE, table
 from ..course.course_file import air
