@@ -21,11 +21,12 @@ import numpy as np
 from . import jit
 from .effects import EffectNames
 from .engine.engines import LOG, Program
-from .engine.event_loop import play_all
+from .engine.event_loop import play_all, Schedule
 from .jit.build import READY
 from .response.contact_set import clear_set
 from .result import summary
 from .scene.course_record import Course
+from .scene.kernel_model import Nothing
 from .scene.presets import Preset
 from .state.ball import ENDED
 from .trajectory.shot_record import begin_shot, copy_result, fail, NOT_FINITE
@@ -42,13 +43,14 @@ Progress = Callable[..., Iterable[Any]]
 
 
 class Batch(NamedTuple):
-    """Common input of many shots; `engine`: 'python' or 'compiled'."""
+    """Common input of many shots; `engine`: 'python' or 'compiled'; `live` but the wind."""
 
     course: Course
     gusts: np.ndarray
     effects: EffectNames
     accuracy: Union[str, Preset]
     engine: str
+    live: dict[str, Iterable[float]]
 
 
 def batch_engine(batch: Batch, shots: int) -> str:
@@ -74,7 +76,13 @@ def world_of(batch: Batch) -> World:
     """`World` of a batch. The strongest gust decides whether wind is simulated."""
     wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
     return World(
-        batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=wind, engine='python'
+        batch.course,
+        ('ball',),
+        batch.effects,
+        batch.accuracy,
+        engine='python',
+        wind=wind,
+        **batch.live,
     )
 
 
@@ -86,7 +94,8 @@ def played(batch: Batch, strikes: np.ndarray, progress: Optional[Progress] = Non
     world = world_of(batch)
     play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    scene = world._model, world._balls, batch.gusts, world._workspace, world._log
+    blowing = Schedule(world._chosen.on.get('wind', Nothing()), batch.gusts)
+    scene = world._model, world._balls, blowing, world._workspace, world._log
     found = [
         ends(play, scene, part)
         for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)
@@ -101,10 +110,10 @@ def ends(
 
     A shot for which plain Python raises an arithmetic error fails.
     """
-    model, balls, gusts, work, log = scene
+    model, balls, schedule, work, log = scene
     try:
         with np.errstate(all='ignore'):
-            return play(model, balls, strikes, gusts, work, log)
+            return play(model, balls, strikes, schedule, work, log)
     except (ArithmeticError, ValueError):
         clear_set(work)  # bisection finds the shot
         if len(strikes) > 1:

@@ -16,7 +16,7 @@
 
 from concurrent.futures import BrokenExecutor, CancelledError, Executor
 from functools import partial
-from typing import NamedTuple, Optional, Union
+from typing import Iterable, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +25,7 @@ from .batch import Batch, batch_engine, played, Progress, progress_bar
 from .effects import EffectNames
 from .engine.engines import checked_engine
 from .geometry import surfaces
-from .live_parameters import checked_wind
+from .live_parameters import checked_live
 from .mechanics.vector import ZERO
 from .reporting import Happening
 from .result import Collision, objection, Result, suspects
@@ -58,6 +58,7 @@ def simulate(
     accuracy: Union[str, Preset] = 'standard',
     rate: float = 100.0,
     engine: str = 'auto',
+    **live: Iterable[float],
 ) -> Play:
     """Play one shot from the tee to its end.
 
@@ -73,6 +74,7 @@ def simulate(
     rate : float
         Rows of the path a second. The shot itself does not depend on it.
     engine : str
+    **live
         See `World`.
 
     Returns
@@ -87,7 +89,7 @@ def simulate(
         See `World`.
     """
     gusts = checked_gusts(wind)
-    world = World(course, effects=effects, accuracy=accuracy, wind=gusts[0, 1:], engine=engine)
+    world = World(course, ('ball',), effects, accuracy, engine=engine, wind=gusts[0, 1:], **live)
     name = world.names[0]
     world.strike(name, shot.velocity, shot.spin)
     rows, tick = [(0.0, *world[name][:3])], 0
@@ -127,7 +129,7 @@ def checked_gusts(wind: ArrayLike) -> np.ndarray:
     if table[0, 0] != 0.0 or not (np.diff(table[:, 0]) > 0.0).all():
         raise ValueError('the times of the wind must begin with 0 and rise')
     for row in table:
-        checked_wind(row[1:])
+        checked_live('wind', row[1:])
     return table
 
 
@@ -142,6 +144,7 @@ def simulate_many(
     chunks: int = 16,
     progress: Optional[Progress] = None,
     engine: str = 'auto',
+    **live: Iterable[float],
 ) -> np.ndarray:
     """Play many shots, each from the tee.
 
@@ -161,6 +164,8 @@ def simulate_many(
     engine : str
         'python', 'compiled', or 'auto': compiled where there are so many shots that it is worth
         it; the log says so before this process waits for a compiler.
+    **live
+        See `World`.
 
     Returns
     -------
@@ -177,7 +182,7 @@ def simulate_many(
     strikes = checked_strikes(velocities, spins)
     gusts = checked_gusts(wind)
     progress = progress or progress_bar
-    batch = Batch(course, gusts, effects, accuracy, checked_engine(engine))
+    batch = Batch(course, gusts, effects, accuracy, checked_engine(engine), live)
     if batch.engine == 'auto':
         batch = batch._replace(engine=batch_engine(batch, len(strikes)))
     if executor is None:

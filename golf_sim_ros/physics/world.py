@@ -28,7 +28,7 @@ from .engine.engines import checked_engine, compiled_engine, Program, PYTHON
 from .engine.event_loop import LOG_FULL, STAGES
 from .jit.build import Build, Part
 from .kernel_types import BallRecord, Effects, Vector
-from .live_parameters import checked_live, LIVE
+from .live_parameters import checked_live, LIVE, live_values
 from .mechanics.vector import ZERO
 from .placement import NoPlace
 from .reporting import Happening
@@ -55,7 +55,7 @@ from .state.events import new_log
 from .state.serialize import plain, restored
 from .trajectory.shot_record import begin_shot, fail, NOT_FINITE
 
-RESERVED = {'shot', *LIVE, 'course', 'play', 'collisions', 'journal'}
+RESERVED = {'shot', 'course', 'play', 'collisions', 'journal'}
 PHASES = tuple(Phase)
 PLACE_ANEW = ': place it anew, or reset'
 GONE_FOR = {
@@ -94,11 +94,12 @@ class World:
         What to simulate; auto: what the scene calls for.
     accuracy : str or Preset
         'sketch', 'standard' or 'reference'.
-    wind : (float, float, float)
-        Velocity of the air 10 m above the ground [m/s].
     engine : str
         'python', 'compiled', or 'auto': plain Python, until it has taken so long that compiling is
         worth it.
+    **live
+        Live parameters by their effects' names, as ``wind=(3.0, 0.0, 0.0)``, velocity of the air
+        10 m above the ground [m/s].
 
     Raises
     ------
@@ -114,8 +115,9 @@ class World:
         balls: Union[int, Sequence[str]] = ('ball',),
         effects: EffectNames = 'auto',
         accuracy: Union[str, Preset] = 'standard',
-        wind: Iterable[float] = ZERO,
+        *,
         engine: str = 'auto',
+        **live: Iterable[float],
     ) -> None:
         self.course = course
         self.names = checked_names(balls)
@@ -123,8 +125,7 @@ class World:
         self.time = 0.0
         self._asked = course.effects if effects in ('auto', ('auto',), ['auto']) else effects
         self._preset, self._accuracy = preset(accuracy), accuracy
-        self._live: dict[str, Any] = {effect: live.default for effect, live in LIVE.items()}
-        self._live['wind'] = checked_live('wind', wind)
+        self._live = live_values(live)
         self._labels = reporting.Labels(self.names, model_.material_names(course), course.hole)
         self._log, self._now = new_log(64 + 16 * len(self.names)), 0.0
         self._events: list[Happening] = []
@@ -152,7 +153,7 @@ class World:
 
     def _choose(self) -> None:
         """Choose the effects, and the records of them for the engine."""
-        self._scene = Scene(self.course, len(self.names), **self._live)
+        self._scene = Scene(self.course, len(self.names), self._live)
         self._chosen = choose(self._asked, self._scene)
         keeps_dormant = self._engine.keeps_dormant
         self._records = (
@@ -581,11 +582,12 @@ def check_tee(course: Course) -> None:
 def checked_names(balls: Union[int, Sequence[str]]) -> tuple[str, ...]:
     """Names of `balls`, a number or a sequence of names; ValueError where one is not allowed."""
     names = tuple(f'ball_{i}' for i in range(balls)) if isinstance(balls, int) else tuple(balls)
+    reserved = RESERVED | LIVE.keys()
     for name in names:
-        if not re.fullmatch('[a-z][a-z0-9_]*', name) or name in RESERVED:
+        if not re.fullmatch('[a-z][a-z0-9_]*', name) or name in reserved:
             raise ValueError(
                 f'ball name {name!r} is not allowed: lower-case letters, digits and _, '
-                f'not {", ".join(sorted(RESERVED))}'
+                f'not {", ".join(sorted(reserved))}'
             )
     if not names or len(set(names)) < len(names):
         raise ValueError(f'ball names {names} must be at least one and all different')

@@ -34,7 +34,7 @@ from ..physics.live_parameters import LIVE
 
 Event = Collision | Result
 
-INPUTS = ('strike', 'place', 'reset', 'accuracy', *LIVE)
+INPUTS = ('strike', 'place', 'reset', 'accuracy')  # and live parameters
 STATE = ('time', 'clock', 'accuracy', 'balls')
 LONGEST = 1000.0  # s; every shot is over long before
 RUNS = 5  # of which the fastest counts
@@ -96,7 +96,7 @@ def shot_from(entries: Sequence[Entry]) -> Shot:
         last = entry['entry']
         if entry['kind'] == 'rest' and entry['shot'] == strike['shot']:
             return Shot(strike, tuple(inputs), entry, gap)
-        if entry['kind'] in INPUTS:
+        if entry['kind'] in INPUTS or entry['kind'] in LIVE:
             inputs.append(entry)
     return Shot(strike, tuple(inputs), None, gap)
 

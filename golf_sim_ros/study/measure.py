@@ -110,7 +110,7 @@ class Stage:
 
 def set_up(game: Game, accuracy: str | Preset, effects: tuple[str, ...]) -> World:
     """`World` of a `Game` before the first strike."""
-    world = World(game.course, len(game.places), effects, accuracy, game.wind)
+    world = World(game.course, len(game.places), effects, accuracy, wind=game.wind)
     for name, place in zip(world.names, game.places):
         world.place(name, place)
     return world

@@ -24,6 +24,7 @@ from golf_sim_ros.physics.effects import (
     effective_normal,
     flight_rates,
     gravity_at,
+    LIVE,
     protocol,
     Scene,
 )
@@ -39,7 +40,7 @@ SCENES = {
     'calm turf': Scene(level(TURF)),
     'hard ground': Scene(level(HARD)),
     'no air': Scene(level(HARD, air=NO_AIR)),
-    'wind': Scene(level(TURF), wind=(4.0, -3.0, 0.5)),
+    'wind': Scene(level(TURF), live={'wind': (4.0, -3.0, 0.5)}),
 }
 SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
 effects = pytest.mark.parametrize('name', EFFECTS)
@@ -218,7 +219,7 @@ def ends_without_and_with(name):
 
 def end(scene, names):
     """Figures of a shot's end."""
-    play = simulate(scene.course, SHOT, wind=scene.wind, effects=names, rate=10.0)
+    play = simulate(scene.course, SHOT, effects=names, rate=10.0, **scene.live)
     told = play.result
     return [*told.position, told.carry, told.apex, told.duration, *play.spins[-2]]
 
@@ -238,7 +239,7 @@ def difference(name):
     ]
     places = []
     for names in ((*others, name), others):
-        world = World(scene.course, wind=scene.wind, effects=names)
+        world = World(scene.course, effects=names, **scene.live)
         world.strike('ball', *SHOT)
         world.advance(30.0)
         places.append(world['ball'].position)
@@ -264,8 +265,7 @@ def test_effects_not_asked_for_are_off_and_say_so():
 
 @pytest.mark.parametrize('scene', SCENES)
 def test_what_is_off_is_of_no_type_that_the_kernels_see(scene):
-    course, wind = SCENES[scene].course, SCENES[scene].wind
-    world = World(course, wind=wind, engine='python')
+    world = World(SCENES[scene].course, engine='python', **SCENES[scene].live)
     kinds = {
         type(record).__name__ for record in (*world._model.effects, *world._model.land.effects)
     }
@@ -321,8 +321,8 @@ def test_an_alternative_is_simulated_only_by_name():
 
 def test_an_unknown_effect_is_named_with_the_known_ones():
     known = 'auto, ball_ball, bearman_harvey_1976, drag'
-    with pytest.raises(ValueError, match=f"'rain' is unknown; known: {known}"):
-        World(level(TURF), effects=('gravity', 'rain'))
+    with pytest.raises(ValueError, match=f"'snow' is unknown; known: {known}"):
+        World(level(TURF), effects=('gravity', 'snow'))
 
 
 @pytest.mark.parametrize(
@@ -335,7 +335,7 @@ def test_an_unknown_effect_is_named_with_the_known_ones():
             ('naruo_2004', 'ferguson_lift'),
             "'naruo_2004' and 'ferguson_lift' are two laws for the same",
         ),
-        ('rain', "'rain' is unknown"),
+        ('snow', "'snow' is unknown"),
     ],
 )
 def test_names_that_do_not_go_together_are_refused(names, said):
@@ -371,9 +371,23 @@ def test_a_live_parameter_is_set_by_the_name_of_its_effect():
     by_name, as_wind = World(level(TURF)), World(level(TURF))
     by_name.set_live('wind', (3, 4, 0))
     as_wind.set_wind((3, 4, 0))
-    assert by_name.live == as_wind.live == {'wind': (3.0, 4.0, 0.0)}
+    assert by_name.live == as_wind.live and by_name.live['wind'] == (3.0, 4.0, 0.0)
     assert by_name.state() == as_wind.state() and by_name.effects_on == as_wind.effects_on
     with pytest.raises(
-        ValueError, match="'drag' has nothing that can be set; those that do: wind"
+        ValueError, match="'drag' has nothing that can be set; those that do: .*wind"
     ):
         by_name.set_live('drag', (1.0,))
+
+
+def test_an_effect_with_a_live_parameter_does_nothing_at_its_default():
+    assert 'wind' in LIVE and set(LIVE) <= set(EFFECTS)
+    for name, live in LIVE.items():
+        assert live.check(live.default) == live.default
+        assert EFFECTS[name].idle(Scene(level(TURF))) and EFFECTS[name].dormant
+
+
+def test_a_keyword_that_no_effect_has_is_refused_with_those_there_are():
+    with pytest.raises(TypeError, match="unexpected keyword argument 'acuracy'.*: .*wind"):
+        World(level(TURF), acuracy='sketch')
+    with pytest.raises(ValueError, match='over 100 m/s'):
+        World(level(TURF), wind=(0.0, 0.0, 101.0))

@@ -65,11 +65,6 @@ def _acceleration(effect: WindForce, flow: Flow) -> Vector:
     return scale(effect.rate * max(flow.position[2], 0.0), load(effect.velocity))
 
 
-@protocol.set_wind.register(WindForce)
-def _take_wind(effect: WindForce, wind: Vector) -> None:
-    store(effect.velocity, wind)
-
-
 REPORT_2019 = Preset(SemiImplicitEuler(REPORT_STEP), Limits(STOPPED, 1.0))
 
 

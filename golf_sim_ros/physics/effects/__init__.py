@@ -20,14 +20,17 @@ can do without it, or '' if it can't. An idle effect does not run and is not com
 file defines ``dormant(scene)`` too, a record of the same type that does nothing, a compiled
 `World` keeps that instead: so one program serves every course, and nothing compiles when the
 effect is switched on. A file with ``INSTEAD_OF``, names of effects, is another model of the same:
-a scene gets it only by name. Other packages add theirs with :func:`register_effect`.
+a scene gets it only by name. What of an effect may change while balls move is its ``LIVE``, a
+`Live` of :mod:`.protocol`; `record` and `idle` read it by ``scene.live_value``. Other packages add
+their effects with :func:`register_effect`, and such parameters to `LIVE`.
 """
 
 from difflib import get_close_matches
 import importlib
 import inspect
 import pkgutil
-from typing import Callable, Iterable, NamedTuple, Optional, Sequence, Union
+from types import MappingProxyType
+from typing import Callable, Iterable, Mapping, NamedTuple, Optional, Sequence, Union
 
 from . import protocol
 from ..geometry.surfaces import Ground
@@ -41,12 +44,16 @@ EffectNames = Union[str, Iterable[str]]  # what is asked for: 'auto', or names
 class Scene(NamedTuple):
     """Scene that effects are chosen for.
 
-    A course, the number of balls, and the wind at 10 m [m/s].
+    A course, the number of balls, and live parameters by their effects' names.
     """
 
     course: CourseRecord
     balls: int = 1
-    wind: Vector = ZERO
+    live: Mapping[str, tuple[float, ...]] = MappingProxyType({})
+
+    def live_value(self, effect: str) -> tuple[float, ...]:
+        """Live parameter of that `effect`, its default where it was not set."""
+        return self.live.get(effect, LIVE[effect].default)
 
 
 class Effect(NamedTuple):
@@ -93,6 +100,7 @@ class Chosen(NamedTuple):
 
 
 EFFECTS: dict[str, Effect] = {}
+LIVE: dict[str, protocol.Live] = {}  # live parameters, by their effects' names
 
 
 def register_effect(
@@ -165,9 +173,11 @@ def check(names: Iterable[str]) -> None:
 
 
 def needless(names: Iterable[str], scene: Scene) -> dict[str, str]:
-    """Reasons, by name, of those of `names` that `scene` can't have, whatever wind may come."""
-    windy = scene._replace(wind=(1.0, 0.0, 0.0))
-    reasons = {name: EFFECTS[name].idle(windy) for name in names}
+    """Reasons, by name, of those of `names` that `scene` can't have, whatever changes in it.
+
+    An effect with a live parameter may be called for at any time.
+    """
+    reasons = {name: EFFECTS[name].idle(scene) for name in names if name not in LIVE}
     return {name: reason for name, reason in reasons.items() if reason}
 
 
@@ -244,13 +254,6 @@ def longest_allowed_step(
 
 
 @kernel
-def set_wind(effects: Effects, wind: Vector) -> None:
-    """Set the wind [m/s at 10 m]. Writes into the effects' records."""
-    for effect in literal_unroll(effects):
-        protocol.set_wind(effect, wind)
-
-
-@kernel
 def effective_normal(
     effects: Effects, normal: Vector, velocity: Vector, softness: float
 ) -> Vector:
@@ -275,6 +278,8 @@ def _discover() -> None:
                 getattr(found, 'dormant', None),
                 getattr(found, 'INSTEAD_OF', ()),
             )
+            if hasattr(found, 'LIVE'):
+                LIVE[module.name] = found.LIVE
 
 
 _discover()

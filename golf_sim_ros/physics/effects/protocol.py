@@ -19,7 +19,9 @@ its fields are free to change while running.
 """
 
 from math import sqrt
-from typing import NamedTuple
+from typing import Any, Callable, NamedTuple
+
+import numpy as np
 
 from ..geometry.surfaces import Ground
 from ..jit import generic, kernel, shared
@@ -27,6 +29,16 @@ from ..kernel_types import EffectRecord, Vector
 from ..mechanics.vector import dot, ZERO
 
 BRIEF = 2e-3  # s: shorter steps are left to the error control, however suddenly a force reverses
+
+
+class Live(NamedTuple):
+    """Live parameter of an effect: what may change while balls move.
+
+    ``check``: makes a tuple of floats of a value, or raises ValueError; ``default``: such a tuple.
+    """
+
+    check: Callable[[Any], tuple[float, ...]]
+    default: tuple[float, ...]
 
 
 class Flow(NamedTuple):
@@ -125,5 +137,8 @@ def contact_normal(
 
 
 @generic
-def set_wind(effect: EffectRecord, wind: Vector) -> None:
-    """Set the `wind` [m/s at 10 m] that is in the record of an `effect`, if it holds any."""
+def set_live(effect: EffectRecord, value: np.ndarray) -> None:
+    """Set the live parameter that is in the record of an `effect`, if it holds any.
+
+    For schedules: it changes within a call of the engine.
+    """

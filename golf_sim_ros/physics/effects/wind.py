@@ -14,8 +14,8 @@
 
 """Wind that grows with height over the ground."""
 
-from math import log
-from typing import NamedTuple, Sequence, Union
+from math import isfinite, log
+from typing import Iterable, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -28,6 +28,7 @@ from ..mechanics.vector import load, scale, store, ZERO
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
 LEAST_WIND = -1  # law of no wind
+MOST_WIND = 100.0  # m/s
 # A step ends at the latest where height over the ground, plus the profile's roughness, has changed
 # by this factor of itself: the steep part of the profile near the ground would be passed before
 # any stage saw it.
@@ -104,9 +105,9 @@ def _longest_step(effect: Wind, ground: Ground, flow: Flow, force: Vector, wante
     return min(max(GROWTH * bending / max(abs(flow.over_ground[2]), 1e-9), protocol.BRIEF), wanted)
 
 
-@protocol.set_wind.register(Wind)
-def _take_wind(effect: Wind, wind: Vector) -> None:
-    store(effect.velocity, wind)
+@protocol.set_live.register(Wind)
+def _set_live(effect: Wind, value: np.ndarray) -> None:
+    store(effect.velocity, load(value))
 
 
 def blowing(profile: Profile, velocity: Sequence[float]) -> Wind:
@@ -126,14 +127,28 @@ def blowing(profile: Profile, velocity: Sequence[float]) -> Wind:
 
 def record(scene: Scene) -> Wind:
     """Record for `scene`."""
-    return blowing(scene.course.wind_profile, scene.wind)
+    return blowing(scene.course.wind_profile, scene.live_value('wind'))
 
 
 def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, still air, or ''."""
-    return '' if any(scene.wind) else 'no wind'
+    return '' if any(scene.live_value('wind')) else 'no wind'
 
 
 def dormant(scene: Scene) -> Wind:
     """Record of a wind that does not blow: one that comes up later compiles nothing."""
     return Wind(np.zeros(3), LEAST_WIND, 1.0, 1.0)
+
+
+def checked_wind(wind: Iterable[float]) -> tuple[float, ...]:
+    """Tuple of three floats of `wind`; ValueError where it is not finite or too strong."""
+    wind = tuple(map(float, wind))
+    if len(wind) != 3 or not all(map(isfinite, wind)):
+        raise ValueError(f'wind {wind} is not three finite numbers')
+    if sum(x * x for x in wind) > MOST_WIND * MOST_WIND:
+        raise ValueError(f'wind {wind} is over {MOST_WIND:g} m/s')
+    return wind
+
+
+# velocity of the air 10 m above the ground [m/s]
+LIVE = protocol.Live(checked_wind, ZERO)

@@ -20,6 +20,8 @@ every ball is read at the time asked for. Nothing ever steps to a tick, so paths
 ticks.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from .planner import (
@@ -33,11 +35,11 @@ from .planner import (
 from ..collision import ball_gap, ball_interactions  # noqa: F401  (ball_gap registers laws)
 from ..collision.workspace import INVOLVED, next_event_ball
 from ..contact.contact_state import choose_contact_mode
-from ..effects import set_wind
+from ..effects import protocol
 from ..geometry import surfaces
 from ..geometry.surfaces import Ground
 from ..jit import borrowed, cycles, entry, kernel, shared
-from ..kernel_types import BallRecord, ModelRecord, WorkRecord
+from ..kernel_types import BallRecord, EffectRecord, ModelRecord, WorkRecord
 from ..mechanics.vector import load, store, unit, ZERO
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws)
 from ..response.collision_log import log_out_of_bounds
@@ -306,25 +308,36 @@ def is_in_hole(model: ModelRecord, ball: BallRecord) -> bool:
     return len(hole) > 0 and surfaces.in_cup(hole, load(ball['position']))
 
 
+class Schedule(NamedTuple):
+    """What changes during a shot: a live parameter of the effect of ``record``.
+
+    ``rows``: a time since the strike [s], the first 0, and the values from then on. The record is
+    one of the model's, or shares its arrays.
+    """
+
+    record: EffectRecord
+    rows: np.ndarray
+
+
 @entry
 def play_all(
     model: ModelRecord,
     ball: BallRecord,
     strikes: np.ndarray,
-    gusts: np.ndarray,
+    schedule: Schedule,
     work: WorkRecord,
     log: Log,
 ) -> np.ndarray:
     """Play shots one after the other, each from the state in `ball`; their ends, an `ENDED` array.
 
-    `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time
-    since the strike, the first 0, and the wind from then on. Writes work, log.
+    `ball` is an array of one; rows of `strikes` are velocity and spin. Writes work, log.
     """
     model = borrowed(model)
     work = borrowed(work)
     log = borrowed(log)
     strikes = borrowed(strikes)
-    gusts = borrowed(gusts)
+    schedule = borrowed(schedule)
+    rows = schedule.rows
     ends = np.empty(len(strikes), ENDED)
     played = ball.copy()
     one = borrowed(played)
@@ -333,16 +346,16 @@ def play_all(
         store(one[0]['velocity'], load(strikes[i, 0:3]))
         store(one[0]['spin'], load(strikes[i, 3:6]))
         begin_shot(one[0], 0.0)
-        set_wind(model.effects, load(gusts[0, 1:4]))
-        gust = 1
+        protocol.set_live(schedule.record, rows[0, 1:])
+        row = 1
         while one[0]['shot_active']:
             log.count[:] = 0
-            # After the last gust up to a time by which every shot has ended.
-            until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
-            if run_events(model, one, until, work, log) == DONE and gust < len(gusts):
-                set_wind(model.effects, load(gusts[gust, 1:4]))
+            # After the last row up to a time by which every shot has ended.
+            until = rows[row, 0] if row < len(rows) else LONGEST_SHOT + 1.0
+            if run_events(model, one, until, work, log) == DONE and row < len(rows):
+                protocol.set_live(schedule.record, rows[row, 1:])
                 end_now(one[0], until)
-                gust += 1
+                row += 1
         copy_result(one[0], ends[i])
     return ends
 
