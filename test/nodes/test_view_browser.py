@@ -71,7 +71,7 @@ def chromium():
 
 @pytest.fixture
 def open_page(chromium):
-    """Open a page and wait until it has drawn: the page, and its errors; it is closed at the end."""
+    """Open a page and wait until it has drawn: the page, and its errors; closed at the end."""
     pages = []
 
     def open_page(url, offline=False, ready='window.golf && golf.view.frames > 0'):
