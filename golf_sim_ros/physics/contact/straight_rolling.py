@@ -69,8 +69,8 @@ def rolling_segment(land: Land, ball: BallRecord) -> None:
     losing = unwinding(material, press, land.ball.radius, land.ball.inertia)
     end = LONGEST_SEGMENT
     if abs(turning) * land.ball.radius <= LEAST_SPEED:
-        turning = 0.0
-    if losing > 0.0 and turning != 0.0:
+        turning = losing = 0.0
+    if losing > 0.0:
         end = min(end, abs(turning) / losing)
     pivot = (turning, losing if turning > 0.0 else -losing)
     stop = atan(length(load(ball['velocity'])) * sqrt(braking[1] / braking[0])) / sqrt(
@@ -117,13 +117,12 @@ def fit_straight(
     left = turning - losing * time
     if abs(left) <= 1e-12 * abs(turning):  # rounding must not leave it turning
         left = 0.0
-    winding = -losing if turning != 0.0 else 0.0
     ball['span'] = time
     store(ball['origin'], load(ball['position']))
     rolling = scale(1.0 / land.ball.radius, cross(normal, v1))
     store(ball['spin_coefficients'][3], add_scaled(rolling, left, normal))
     rates = (
-        add_scaled(scale(1.0 / land.ball.radius, cross(normal, a0)), winding, normal),
-        add_scaled(scale(1.0 / land.ball.radius, cross(normal, a1)), winding, normal),
+        add_scaled(scale(1.0 / land.ball.radius, cross(normal, a0)), -losing, normal),
+        add_scaled(scale(1.0 / land.ball.radius, cross(normal, a1)), -losing, normal),
     )
     fit_segment(ball, way, (v0, v1), (a0, a1), rates)

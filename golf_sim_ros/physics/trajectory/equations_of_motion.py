@@ -35,8 +35,7 @@ from ..mechanics.vector import (
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
-# 1/m: a ball loses half of its speed within 7 mm; more would only be stiff
-STIFFEST_GROWTH = 100.0
+STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is only stiff
 
 
 @kernel
