@@ -76,7 +76,7 @@ def main():
         duration=round(1000 / options.rate),
         loop=0,
         quality=options.quality,
-        method=6,
+        method=4,
     )
     print(
         f'{options.output}: {len(pictures)} pictures, {options.output.stat().st_size / 1e6:.2f} MB'
@@ -90,9 +90,9 @@ def parser():
     reader.add_argument('bag')
     reader.add_argument('-o', '--output', type=Path, default=Path('drive.webp'))
     reader.add_argument('--shot', type=int, default=1, help='its place in the bag (%(default)s)')
-    reader.add_argument('--rate', type=float, default=12.0, help='pictures a second (%(default)s)')
-    reader.add_argument('--size', type=int, nargs=2, default=(640, 360), metavar=('W', 'H'))
-    reader.add_argument('--quality', type=int, default=62)
+    reader.add_argument('--rate', type=float, default=10.0, help='pictures a second (%(default)s)')
+    reader.add_argument('--size', type=int, nargs=2, default=(600, 338), metavar=('W', 'H'))
+    reader.add_argument('--quality', type=int, default=55)
     reader.add_argument('--units', choices=('golf', 'si'), default='golf')
     reader.add_argument('--namespace')
     reader.add_argument('--course')
@@ -104,7 +104,7 @@ def filmed(path, browser, options):
     width, height = options.size
     with sync_playwright() as player:
         chromium = player.chromium.launch(executable_path=browser, args=FLAGS)
-        page = chromium.new_page(viewport={'width': 960, 'height': round(960 * height / width)})
+        page = chromium.new_page(viewport={'width': 800, 'height': round(800 * height / width)})
         page.goto(path.as_uri())
         page.wait_for_function(READY, timeout=PATIENCE)
         start, end = page.evaluate(START, options.shot - 1)

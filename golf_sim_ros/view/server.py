@@ -35,6 +35,7 @@ from .guard import ANY, Guard
 
 FIRST_PORT, PORTS = 8470, 30
 GRACE = 1  # s that browsers get to hang up
+PATIENCE = 20.0  # s for which a browser that draws slowly may say nothing
 LOOK = 0.05  # s from one look at whether to end to the next
 
 
@@ -164,6 +165,7 @@ def run(
             tailwind=False,
             show_welcome_message=False,
             favicon='⛳',
+            reconnect_timeout=PATIENCE,
             timeout_graceful_shutdown=GRACE,
             uvicorn_logging_level='error',
         )

@@ -38,7 +38,7 @@ export function installHaze() {
   chunks.fog_fragment = `#ifdef USE_FOG
     float hazeWay = length(vHaze);
     vec3 hazeTo = vHaze / max(hazeWay, 1e-3);
-    float haze = 1.0 - exp(-pow(hazeWay / ${HAZE.toFixed(1)}, 1.25));
+    float haze = (1.0 - exp(-pow(hazeWay / ${HAZE.toFixed(1)}, 1.25))) * (1.0 - 0.8 * abs(hazeTo.z));
     gl_FragColor.rgb = mix(gl_FragColor.rgb, skyColor(normalize(vec3(hazeTo.xy, max(hazeTo.z, 0.0)))), haze);
   #endif`;
 }
