@@ -31,6 +31,7 @@ EXECUTABLES = {
     'view_play': 'golf_sim_ros.cli.view_play:main',
     'play_hole': 'golf_sim_ros.cli.play_hole:main',
     'accuracy_study': 'golf_sim_ros.cli.accuracy_study:main',
+    'compare_shots': 'golf_sim_ros.cli.compare_shots:main',
     'compile_physics': 'golf_sim_ros.cli.compile_physics:main',
 }
 

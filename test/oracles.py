@@ -82,19 +82,18 @@ def spin_after(spin, path):
 
 def drag_coefficient(s, re):
     """Drag coefficient by spin ratio and Reynolds number: a fit, its numbers the package's own."""
-    return (
-        0.11
-        + 0.1529 * re**2 / (re**2 + 1.564e5**2)
-        + 0.1591 * (1 + 4.198 / (1 + (re / 5.133e4) ** 4)) * s**2 / (s**2 + 0.1649**2)
-        + 0.5955 / (1 + (re / 5.519e4) ** 4) / (1 + (s / 0.05) ** 2)
-    )
+    spun = s**2 / (s**2 + 0.2114**2)
+    turbulent = 0.1319 + 0.1209 * re**2 / (re**2 + 1.672e5**2) + 0.2242 * spun
+    laminar = 0.4507 + 0.0682 * spun
+    part = 1 / (1 + (re / 6.531e4) ** 8)
+    return (1 - part) * turbulent + part * laminar
 
 
 def lift_coefficient(s, re):
     """Lift coefficient likewise."""
-    return s / sqrt(s**2 + 0.02**2) * 0.06887 * (
-        1 - 0.4528 / (1 + (re / 2.049e5) ** 4)
-    ) + 0.3455 * s / sqrt(s**2 + 0.2587**2)
+    return s / sqrt(s**2 + 0.02**2) * 0.07761 * (
+        1 - 0.4113 / (1 + (re / 1.267e5) ** 4)
+    ) + 0.3755 * s / sqrt(s**2 + 0.3335**2)
 
 
 def golf_ball_rates(density, viscosity):

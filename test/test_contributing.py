@@ -119,7 +119,7 @@ def test_it_has_an_example_of_each():
 
 def test_rain_brakes_a_drive(told):
     throughout, later = told[0]
-    assert throughout == pytest.approx(5.6, abs=0.1) and 0.5 < later < throughout - 0.5
+    assert throughout == pytest.approx(5.8, abs=0.1) and 0.5 < later < throughout - 0.5
 
 
 def test_the_preset_and_the_integrator_are_as_exact_as_told(told):

@@ -25,7 +25,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # fmt: off
 COMMANDS = {
     'sim_node', 'wind_node', 'shoot', 'record_play', 'resimulate', 'plot_play', 'accuracy_study',
-    'view_play', 'play_hole',
+    'compare_shots', 'view_play', 'play_hole',
     'compile_physics',
 }
 SIM_PARAMETERS = {

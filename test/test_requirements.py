@@ -192,6 +192,7 @@ def test_the_manifest_asks_for_nothing_that_apt_has_not(kind):
         'cli.accuracy_study',
         'cli.view_play',
         'cli.play_hole',
+        'cli.compare_shots',
         'bag',
         'course',
         'physics',

@@ -20,7 +20,7 @@
 from math import log
 from pathlib import Path
 
-from fit_aerodynamics import column, DEGREE, drag_and_lift, MPH, rows, RPM, TABLES, YARD
+from fit_aerodynamics import column, DEGREE, drag_and_lift, MPH, rows, RPM, YARD
 from golf_sim_ros.course.material_file import shipped
 from golf_sim_ros.drawing.style import bare, colors
 from golf_sim_ros.physics import (
@@ -43,15 +43,9 @@ import numpy as np
 matplotlib.use('Agg')
 
 DOCS = Path(__file__).parents[1] / 'docs'
-LAWS = {
-    'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
-    'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay'),
-    'Smits, Smith 1994': ('gravity', 'smits_smith_1994', 'spin_decay'),
-    'Naruo 2004': ('gravity', 'naruo_2004', 'spin_decay'),
-    'Bearman, Harvey 1976': ('gravity', 'bearman_harvey_1976', 'spin_decay'),
-    'linear': ('gravity', 'linear_drag', 'magnus', 'spin_decay'),
-}
+PGA = ('trackman_pga_2010s.csv', 'trackman_pga_2023.csv')
 RUNS = (
+    ('driver, firm fairway', 'firm_fairway', 167, 10.9, 2686),
     ('driver, fairway', 'fairway', 167, 10.9, 2686),
     ('7 iron, fairway', 'fairway', 120, 16.3, 7097),
     ('wedge, firm green', 'firm_green', 102, 24.2, 9304),
@@ -80,25 +74,6 @@ def of_table(name):
     """Its rows' strikes."""
     table = rows(name)
     return strikes(*(column(table, key) for key in ('ball_speed_mph', 'launch_deg', 'spin_rpm')))
-
-
-def print_errors():
-    """Mean and greatest errors of each set of laws against each table."""
-    print('| table | laws | carry [yd]: mean, worst | apex [yd] | landing angle [deg] |')
-    print('|---|---|---|---|---|')
-    for name in TABLES:
-        table = rows(name)
-        told = [column(table, key) for key in ('carry_yd', 'max_height_yd', 'land_angle_deg')]
-        for law, effects in LAWS.items():
-            shots = simulate_many(ground('fairway'), *of_table(name), effects=effects)
-            found = shots['carry'] / YARD, shots['apex'] / YARD, shots['landing_angle'] / DEGREE
-            cells = [
-                f'{np.abs(f - t).mean():.2f}, {np.abs(f - t).max():.2f}'
-                if np.isfinite(t).all()
-                else ''
-                for f, t in zip(found, told)
-            ]
-            print(f'| {name} | {law} | {" | ".join(cells)} |')
 
 
 def print_runs():
@@ -198,7 +173,7 @@ def draw_putt(axes):
 
 def draw_errors(axes):
     """Carry's error, club by club, of both of the tour's tables."""
-    for name in TABLES[:2]:
+    for name in PGA:
         carry = simulate_many(ground('fairway'), *of_table(name))['carry'] / YARD
         axes.plot(
             carry - column(rows(name), 'carry_yd'), 'o-', ms=4, label=name[13:-4].replace('_', ' ')
@@ -253,8 +228,6 @@ def main():
     draw_errors(axes[0, 3])
     draw_capture(axes[1, 3])
     figure.savefig(DOCS / 'physics.png', dpi=90)
-    print_errors()
-    print()
     print_runs()
 
 

@@ -83,6 +83,8 @@ def material(rng):
         'rolling_resistance': number(rng, 0, 1e6, 0.1, 0.0),
         'pivot_friction': number(rng, 0, 1e6, 0.002, 0.0),
         'softness': number(rng, 0, 100, 1.0, 0.0),
+        'resistance_growth': number(rng, 0, 100, 0.07, 0.0),
+        'ploughing': number(rng, 0, 100, 0.7, 0.0),
     }
     kept = [name for name in fields if rng.random() < 0.6]
     return {name: fields[name] for name in kept}

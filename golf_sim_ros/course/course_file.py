@@ -108,7 +108,13 @@ WEATHER = record(
         'relative_humidity': number(0, 1),
     },
 )
-ALTITUDE = fields({'altitude': number(-1000, 11000)})
+AT_ALTITUDE = fields(
+    {
+        'altitude': number(-1000, 11000),
+        'temperature': number(150, 400),
+        'relative_humidity': number(0, 1),
+    }
+)
 BALL = record(
     Ball,
     {
@@ -434,10 +440,15 @@ def zone_of(known: Mapping[str, Material]) -> Checker:
 
 
 def air(value: Any, key: str) -> Air:
-    """Check ``air``: weather, or an altitude in the standard atmosphere."""
+    """Check ``air``: weather, or an altitude in the standard atmosphere.
+
+    An altitude's pressure may have a temperature and a humidity of its own.
+    """
     if 'altitude' in mapping(value, key):
-        return standard_atmosphere(**ALTITUDE(value, key))
-    weather = WEATHER(value, key)
+        own = AT_ALTITUDE(value, key)
+        weather = standard_atmosphere(own.pop('altitude'))._replace(**own)
+    else:
+        weather = WEATHER(value, key)
     if density(weather) < 0:
         raise refused(
             f'{key}.pressure', weather.pressure, 'more than that of the vapour in the air'

@@ -69,6 +69,8 @@ FIELDS: dict[str, Checker] = {
     'stimp': number(0.1, 100),
     'pivot_friction': number(0),
     'softness': number(0, 100),
+    'resistance_growth': number(0, 100),
+    'ploughing': number(0, 100),
     'color': vector(3, 0, 1),
     'drag': number(0, 1000),
 }

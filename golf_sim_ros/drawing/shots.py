@@ -55,7 +55,7 @@ def drawn(play: Play, wind: Any = ZERO) -> DrawnShot:
     """Make the `DrawnShot` of a `Play`; `wind` is what was given to `simulate`."""
     return DrawnShot(
         play.result,
-        tuple(hit for hit in play.collisions if isinstance(hit, Collision)),
+        play.collisions,
         play.times,
         play.positions,
         play.velocities,

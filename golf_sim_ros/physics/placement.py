@@ -190,8 +190,14 @@ def wake_leaning(site: Site, balls: np.ndarray, number: int, now: float) -> None
         & (apart <= 2.0 * (site.model.land.ball.radius + RESTING_GAP))
     )
     leaning[number] = False
-    balls['end'][leaning], balls['ending'][leaning] = now, LAUNCH
-    balls['moved_by_ball'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
+    for other in np.flatnonzero(leaning):
+        set_off(balls[other], now)
+
+
+def set_off(ball: BallRecord, now: float) -> None:
+    """Let a `ball` record at rest set off `now`, if it can."""
+    ball['end'], ball['ending'] = now, LAUNCH
+    ball['moved_by_ball'], ball['struck_at'] = 1, ball['position']
 
 
 def drop(

@@ -457,8 +457,9 @@ class World:
             return
         self._live[effect] = value
         self._choose()
-        self._model = self._model._replace(effects=model_.in_flight(self._records))
-        self._begin_new_segments()
+        self._model = model_.with_effects(self._model, self._records)
+        self._begin_new_segments(self._is_moving)
+        self._wake()
 
     @property
     def accuracy(self) -> Union[str, Preset]:
@@ -469,13 +470,23 @@ class World:
     def accuracy(self, accuracy: Union[str, Preset]) -> None:
         self._preset, self._accuracy = preset(accuracy), accuracy
         self._model = model_.build_model(self.course, self._records, self._preset)
-        self._begin_new_segments()
+        self._begin_new_segments(self._balls['phase'] == FLIGHT)
 
-    def _begin_new_segments(self) -> None:
-        """End the segments of balls in flight now, since their surroundings have changed."""
-        flying = self._balls['phase'] == FLIGHT
-        self._end_segments(flying, self._now)
-        self._balls['last_stage_time'][flying] = -1.0
+    def _begin_new_segments(self, which: np.ndarray) -> None:
+        """End the segments of those balls, a mask, now: their surroundings have changed."""
+        self._end_segments(which, self._now)
+        self._balls['last_stage_time'][which] = -1.0
+
+    def _wake(self) -> None:
+        """Let balls that rest on the ground set off if they can.
+
+        But for those on their pegs, and those that failed: they are held where they are.
+        """
+        resting = (self._balls['phase'] == REST) & (self._balls['support'] >= 0)
+        resting &= (self._balls['sleeps_on_ball'] == 0) & (self._balls['failed'] == 0)
+        for number in np.flatnonzero(resting):
+            if three(self._balls[number]['position']) != self._pegs.get(int(number)):
+                placement.set_off(self._balls[number], self._now)
 
     @property
     def engine(self) -> str:

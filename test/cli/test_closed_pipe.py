@@ -28,6 +28,7 @@ TOOLS = (
     'shoot',
     'record_play',
     'accuracy_study',
+    'compare_shots',
     'view_play',
     'play_hole',
 )

@@ -37,11 +37,12 @@ import yaml
 PLAIN = 'format: 1\nground: [{shape: plane, material: rough}]\n'
 PATCH = 'center: [0, 0, 0], length: 4, width: 2, material: rough'
 GROUNDS = (
-    'artificial_turf, fairway, firm_green, first_cut, green, hardpan, rough, sand, soft_green, tee'
+    'artificial_turf, fairway, firm_fairway, firm_green, first_cut, green, hardpan, rough, sand, '
+    'soft_fairway, soft_green, tee'
 )
 KNOWN = (
-    'artificial_turf, cup, fairway, firm_green, first_cut, flagstick, green, hardpan, leaves, '
-    'rough, sand, soft_green, stone, tee, wood'
+    'artificial_turf, cup, fairway, firm_fairway, firm_green, first_cut, flagstick, green, '
+    'hardpan, leaves, rough, sand, soft_fairway, soft_green, stone, tee, wood'
 )
 
 
@@ -132,6 +133,16 @@ ground:
     'line, field, value',
     [
         ('air: {altitude: 1600}', 'air', standard_atmosphere(1600)),
+        (
+            'air: {altitude: 1600, temperature: 303}',
+            'air',
+            Air(303.0, standard_atmosphere(1600).pressure, 0.0),
+        ),
+        (
+            'air: {altitude: -100, temperature: 310, relative_humidity: 1}',
+            'air',
+            Air(310.0, standard_atmosphere(-100).pressure, 1.0),
+        ),
         ('wind_profile: {law: uniform}', 'wind_profile', UniformProfile()),
         ('wind_profile: {law: log}', 'wind_profile', LogProfile()),
         ('wind_profile: {law: log, roughness: 1e-3}', 'wind_profile', LogProfile(0.001)),
@@ -325,6 +336,14 @@ obstacles:
         ),
         ('air: {relative_humidity: 50}', 'air.relative_humidity 50 must be a number from 0 to 1'),
         ('air: {altitude: 1600, pressure: 1}', "air: key 'pressure' is unknown; known: altitude"),
+        (
+            'air: {altitude: 1600, temperature: 30}',
+            'air.temperature 30 must be a number from 150 to 400',
+        ),
+        (
+            'air: {altitude: 11000, temperature: 400, relative_humidity: 1}',
+            'must be more than that of the vapour',
+        ),
         ('air: {altitude: 20000}', 'air.altitude 20000 must be a number from -1000 to 11000'),
         (
             'air: {temprature: 280}',

@@ -40,7 +40,7 @@ def test_an_outline_in_utm_becomes_a_zone_with_a_bunker_left_out(tmp_path, capsy
 def test_the_slopes_on_which_a_ball_rests_are_those_told(tmp_path):
     told = re.search(r'That is (.*?)\. On a steeper one', TEXT, re.DOTALL)[1]
     pairs = re.findall(r'(\d+) %\s+on\s+`(\w+)`', told)
-    assert len(pairs) == 7
+    assert len(pairs) == 9
     for percent, name in pairs:
         assert lies(tmp_path, name, float(percent) - 0.5) and not lies(
             tmp_path, name, float(percent) + 0.5

@@ -60,7 +60,7 @@ class Listener:
         return [event for event in list(self.events) if event['kind'] == kind]
 
     def wait_for(self, kind, count=1):
-        """The latest event of a kind, once there are so many."""
+        """Wait for so many events of a kind; the latest of them."""
         wait_until(lambda: len(self.of(kind)) >= count, f'{count} {kind} at {self.url}')
         return self.of(kind)[-1]
 
@@ -72,7 +72,7 @@ class Listener:
 
 @contextmanager
 def listening(url):
-    """A `Listener` at a page's server."""
+    """Connect a `Listener` to a page's server."""
     wait_until(lambda: url, 'the page is there')
     listener = Listener(url)
     try:

@@ -24,7 +24,7 @@ COURSES = {
     'wrong type': ('format: 1\ntee: far\nground: ' + GROUND, ['tee', "'far'", 'numbers']),
     'unknown material': (
         'format: 1\nground: [{shape: plane, material: gras}]',
-        ['ground[0].material', "'gras'", 'fairway, firm_green, first_cut'],
+        ['ground[0].material', "'gras'", 'fairway, firm_fairway, firm_green'],
     ),
     'no ground under the tee': (
         'format: 1\ntee: [9, 0]\nground: [{shape: patch, center: [0, 0, 0], length: 2, width: 2,'

@@ -36,7 +36,7 @@ CHROMIUM = shutil.which('chromium') or shutil.which('chromium-browser')
 if CHROMIUM is None:
     pytest.skip('Chromium is not installed', allow_module_level=True)
 
-from golf_sim_ros.view.one_file import one_file  # noqa: E402
+from golf_sim_ros.view.one_file import one_file  # noqa: E402, I100
 from page_server import listening, served  # noqa: E402
 from PIL import Image  # noqa: E402
 
@@ -71,7 +71,7 @@ def chromium():
 
 @pytest.fixture
 def open_page(chromium):
-    """`open_page(url)` gives a page that has drawn, and its errors; closed after the test."""
+    """Open a page and wait until it has drawn: the page, and its errors; closed at the end."""
     pages = []
 
     def open_page(url, offline=False, ready='window.golf && golf.view.frames > 0'):
@@ -125,7 +125,7 @@ def from_above(x, y, z):
 
 
 def amid(course, name):
-    """A place in the midst of a material, or None."""
+    """Find a place in the midst of a material, or None."""
     x, y = (np.arange(p[0], p[-1], 0.5) for p in grid(course))
     heights, numbers = ground_grid(course, x, y)
     names = [material.name for material in materials(course)]
@@ -186,7 +186,7 @@ def test_a_recorded_play_goes_on_by_itself_and_to_any_time(open_page, tmp_path):
 
 @pytest.fixture(scope='module')
 def hole(start):
-    """A page to play links from, with a sim of its own, in calm air."""
+    """Serve a page to play links from, with a sim of its own, in calm air."""
     return served(start, 'cli.play_hole', 'links', '--wind', '0', '--units', 'si')
 
 

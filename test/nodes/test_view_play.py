@@ -26,7 +26,7 @@ import pytest
 
 pytest.importorskip('nicegui')
 
-import aiohttp  # noqa: E402
+import aiohttp  # noqa: E402, I100
 from page_server import listening, served  # noqa: E402
 
 DRIVE = (60.0, 1.0, 14.0), (0.0, -250.0, 0.0)
@@ -35,13 +35,13 @@ PUTT = (2.0, 0.1, 0.0)
 
 @pytest.fixture(scope='module')
 def sim(start):
-    """A sim on links, in a namespace of its own."""
+    """Start a sim on links, in a namespace of its own."""
     return start('sim_node', *parameters('/viewed', course='links', balls='[red,blue]'))
 
 
 @pytest.fixture(scope='module')
 def url(start, sim):
-    """A page of that sim."""
+    """Serve a page of that sim."""
     return served(start, 'cli.view_play', '--namespace', '/viewed')[1]
 
 
@@ -183,7 +183,7 @@ def test_a_signal_ends_it_with_0_and_leaves_nothing(start, number, command):
 
 
 def left_of(pid):
-    """Processes of a sim that process `pid` has started for itself."""
+    """Find the sim's processes that process `pid` has started for itself."""
     found = []
     for line in Path('/proc').glob('[0-9]*/cmdline'):
         try:

@@ -30,14 +30,14 @@ COURSE = CourseData(b'', 'abc', 'Links')
 
 @pytest.fixture
 def feed():
-    """A feed of one ball."""
+    """Make a feed of one ball."""
     made = Feed()
     made.show_course(COURSE, ['ball'])
     return made
 
 
 def listening(feed):
-    """A client that has drawn the course, and nothing waits."""
+    """Connect a client that has drawn the course, and for which nothing waits."""
     client = feed.connect()
     feed.catch_up(client)
     client.waiting.clear()
@@ -60,7 +60,7 @@ def poses(messages):
 
 @pytest.fixture(scope='module')
 def drive():
-    """A drive at 50 poses a second."""
+    """Play a drive at 50 poses a second."""
     return simulate(load_course('links'), DRIVE, rate=50.0, engine='python')
 
 

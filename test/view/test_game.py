@@ -20,7 +20,7 @@ import pytest
 
 
 def result(shot, status='at_rest', penalty=0, stroke=None, velocity=(1.0, 2.0, 3.0)):
-    """A result as a sim publishes it, as far as scores go."""
+    """Make a result as a sim publishes it, as far as scores go."""
     return {
         'shot': shot,
         'status': status,

@@ -46,7 +46,7 @@ ORIGINS = (
 
 
 def answer(kind, headers, names=()):
-    """What the guard sends, and 'inside' where it lets the request through."""
+    """Ask the guard: what it sends, and 'inside' where it lets the request through."""
     sent = []
 
     async def inside(scope, receive, send):

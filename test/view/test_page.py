@@ -21,7 +21,7 @@ import pytest
 
 pytest.importorskip('nicegui')
 
-from golf_sim_ros.view import caddie, page  # noqa: E402
+from golf_sim_ros.view import caddie, page  # noqa: E402, I100
 from golf_sim_ros.view.course_data import CourseData  # noqa: E402
 from golf_sim_ros.view.session import Session  # noqa: E402
 from nicegui import ui  # noqa: E402
@@ -88,7 +88,7 @@ def looked_at(play, look):
 
 @pytest.fixture(autouse=True)
 def fresh(nicegui_reset_globals):  # noqa: F811
-    """NiceGUI as new, whatever ran before."""
+    """Make NiceGUI as new, whatever ran before."""
 
 
 def test_one_click_is_one_strike_and_the_button_waits_for_the_result():

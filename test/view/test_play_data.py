@@ -31,7 +31,7 @@ DRIVE, CHIP = Shot((73.3, 2.0, 14.1), (0.0, -281.0, 0.0)), Shot((9.0, 0.5, 6.0))
 
 @pytest.fixture(scope='module')
 def shots():
-    """A drive, and later a chip from the tee."""
+    """Draw a drive, and later a chip from the tee."""
     first = drawn(
         simulate(COURSE, DRIVE, (3.0, 0.0, 0.0), rate=50.0, engine='python'), (3.0, 0.0, 0.0)
     )

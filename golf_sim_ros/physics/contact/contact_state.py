@@ -14,7 +14,6 @@
 
 """Contact mode of a ball, whether it slides, rolls, pivots or rests, and its support."""
 
-from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Land, MaterialRecord, Vector
@@ -25,6 +24,7 @@ from ..state.transitions import begin_rolling, begin_sliding, come_to_rest
 from ..trajectory.equations_of_motion import (
     LEAST_SPEED,
     material_under,
+    pull_at,
     rolling_deceleration,
     rolling_needs,
 )
@@ -69,6 +69,12 @@ def in_micro_bounces(ball: BallRecord, now: float) -> bool:
 
 
 @kernel
+def pull_on(land: Land, ball: BallRecord) -> Vector:
+    """Acceleration of a ball in contact by its weight and by moving air."""
+    return pull_at(land, load(ball['position']), load(ball['velocity']), load(ball['spin']))
+
+
+@kernel
 def heading(land: Land, ball: BallRecord) -> Vector:
     """Compute the unit vector along the velocity.
 
@@ -78,7 +84,7 @@ def heading(land: Land, ball: BallRecord) -> Vector:
     if length(v) > 0.0:
         return unit(v, ZERO)
     normal = load(ball['normal'])
-    press, driven = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
+    press, driven = surfaces.slope(pull_on(land, ball), normal)
     if ball['phase'] == SLIDE:
         sliding = unit(slip(v, load(ball['spin']), normal, land.ball.radius), ZERO)
         driven = add_scaled(
@@ -107,7 +113,7 @@ def choose_contact_mode(land: Land, ball: BallRecord, now: float) -> None:
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
-    press, downhill = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
+    press, downhill = surfaces.slope(pull_on(land, ball), normal)
     v = add_scaled(load(ball['velocity']), -dot(load(ball['velocity']), normal), normal)
     k = land.ball.inertia
     turning = dot(load(ball['spin']), normal)

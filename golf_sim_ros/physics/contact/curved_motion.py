@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Sliding and rolling on ground which is not flat: around an edge, over a crest, across a green.
+"""Sliding and rolling without a closed form: around an edge, over a crest, through long grass.
 
 The integrator of flight steps the equations of contact as well; at a step's end the ball is
 projected onto the constraint: its position to the ground, its velocity to the tangent plane, its
@@ -24,7 +24,7 @@ geometric series, and what is left is removed at once when it no longer counts.
 from math import inf
 
 from .contact_state import choose_contact_mode, in_micro_bounces, remove_slip
-from ..effects import flight_rates, gravity_at
+from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..integrators import step
 from ..jit import kernel, shared
@@ -33,7 +33,15 @@ from ..mechanics.impulse import slip
 from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, sub, ZERO
 from ..state.ball import moves, ROLL, SLIDE
 from ..state.transitions import begin_rolling, begin_sliding, take_off
-from ..trajectory.equations_of_motion import contact_rates, LEAST_SPEED, material_under, unwinding
+from ..trajectory.equations_of_motion import (
+    contact_rates,
+    growth_rate,
+    LEAST_SPEED,
+    material_under,
+    supporting_surface,
+    turn_of_normal,
+    unwinding,
+)
 from ..trajectory.segment import fit_segment, position
 
 MOST_NORMAL_TURN = 0.1  # rad by which the normal may turn in a step
@@ -59,7 +67,7 @@ SLIP_TIME = 1e-8  # s
 
 @shared
 def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
-    """Plan a step along ground that is not flat, or lift off where nothing presses.
+    """Plan a step along ground of any form, or lift off where nothing presses.
 
     Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in
     small ways only: see `snap_small_motion`.
@@ -83,7 +91,7 @@ def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
         return
     v = load(ball['velocity'])
     force, _, press, _ = contact_rates(land, ball, place, v, load(ball['spin']))
-    turn = surfaces.turn(land.ground, ball['support'], place, v)
+    turn = turn_of_normal(land, ball, place, v)
     h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
     h = min(h, MOST_NORMAL_TURN / max(length(turn), 1e-3))
     h = min(h, time_to_unwind(land, ball, press, turn))
@@ -124,7 +132,7 @@ def press_with_air(
     """Press [m/s^2] of weight and aerodynamic forces together.
 
     Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be
-    back at once. Elsewhere the air does not act on a ball on the ground.
+    back at once. Elsewhere only moving air acts on a ball on the ground: see `moving_air`.
     """
     _, normal = surfaces.nearest(model.land.ground, ball['support'], place)
     turn = surfaces.turn(model.land.ground, ball['support'], place, velocity)
@@ -141,9 +149,7 @@ def step_share_on_ground(land: Land, ball: BallRecord) -> float:
     """
     off = 0.0
     for i in range(1, 4):
-        distance, _ = surfaces.nearest(
-            land.ground, ball['support'], position(ball, 0.25 * i * ball['span'])
-        )
+        distance, _ = supporting_surface(land, ball, position(ball, 0.25 * i * ball['span']))
         off = max(off, abs(distance - land.ball.radius))
     if off <= land.limits.path:
         return max(
@@ -215,8 +221,12 @@ def time_to_change(land: Land, ball: BallRecord, force: Vector, press: float) ->
     material = material_under(land, ball)
     if ball['phase'] == SLIDE:
         u = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
+        if length(u) <= LEAST_SPEED:
+            return inf
         losing = (1.0 + 1.0 / land.ball.inertia) * material['dynamic_friction'] * press
-        return length(u) / losing if losing > 0.0 and length(u) > LEAST_SPEED else inf
+        growing = (1.0 + land.ball.inertia) * growth_rate(material, press) * length(v)
+        losing += growing * dot(v, u) / length(u)
+        return length(u) / losing if losing > 0.0 else inf
     slowing = -dot(force, v)
     if material['rolling_resistance'] == 0.0 or length(v) <= LEAST_SPEED:
         return inf
@@ -272,8 +282,13 @@ def gained(land: Land, ball: BallRecord) -> float:
         weight, way
     )
     if in_micro_bounces(ball, ball['begin']):
-        gain -= length(load(ball['micro_bounce_air'])) * ball['span'] * max(length(v0), length(v1))
-    return gain
+        push = length(load(ball['micro_bounce_air']))
+    else:
+        push = max(
+            length(moving_air(land.air, land.ground, place, v0, w0)),
+            length(moving_air(land.air, land.ground, add(place, way), v1, w1)),
+        )
+    return gain - push * ball['span'] * max(length(v0), length(v1))
 
 
 @shared
@@ -286,7 +301,7 @@ def project_to_ground(land: Land, ball: BallRecord) -> float:
     r = land.ball.radius
     x0 = load(ball['position'])
     way = load(ball['position_coefficients'][5])
-    distance, normal = surfaces.nearest(land.ground, ball['support'], add_scaled(x0, 1.0, way))
+    distance, normal = supporting_surface(land, ball, add_scaled(x0, 1.0, way))
     if ball['span'] > SHORT_STEP:
         way = add_scaled(way, r - distance, normal)
     end = add_scaled(x0, 1.0, way)
@@ -319,5 +334,5 @@ def end_velocity(ball: BallRecord) -> Vector:
 def slip_at_end(land: Land, ball: BallRecord) -> Vector:
     """Slip of the ball at the end of its segment."""
     place = add_scaled(load(ball['origin']), 1.0, load(ball['position_coefficients'][5]))
-    _, normal = surfaces.nearest(land.ground, ball['support'], place)
+    _, normal = supporting_surface(land, ball, place)
     return slip(end_velocity(ball), load(ball['spin_coefficients'][3]), normal, land.ball.radius)

@@ -17,6 +17,10 @@
 With k the moment of inertia over m r^2 and N the press, slip u obeys
 u' = g_t - (1 + 1/k) mu N u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of
 sliding is v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
+
+Resistance that grows with speed has a closed form on level ground only (straight_rolling.py).
+Where little of it is left it is taken as constant; before that, the equations are integrated
+(curved_motion.py): see `resists_evenly`.
 """
 
 from math import inf
@@ -28,9 +32,22 @@ from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Land, Vector
 from ..mechanics import coulomb_deceleration
 from ..mechanics.impulse import slip
-from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, sub, ZERO
+from ..mechanics.vector import (
+    add,
+    add_scaled,
+    cross,
+    dot,
+    length,
+    load,
+    scale,
+    store,
+    sub,
+    unit,
+    ZERO,
+)
 from ..state.ball import BALL_STOPS, SLIDE, SLIP_STOPS, STEP_END
 from ..trajectory.equations_of_motion import (
+    growth_rate,
     LEAST_SPEED,
     material_under,
     micro_bounce_forces,
@@ -42,6 +59,8 @@ from ..trajectory.segment import fit_segment, position
 LONGEST_SEGMENT = 10.0  # s
 # s: a shorter segment must be more exact, for velocity errs by position's error over time
 UNHURRIED = 0.1
+LEAST_BRAKE = 1e-3  # m/s^2: a ball that is braked less is as good as never stopped
+EVENLY = 6.0  # of a steadily growing acceleration: its rate times time^3 over the way
 # No curve is asked to be nearer to a closed form than LEAST_PATH_ERROR, or than a share of
 # RELATIVE_ROUNDING of its distance from the origin.
 LEAST_PATH_ERROR = 1e-12  # m
@@ -49,6 +68,50 @@ RELATIVE_ROUNDING = 1e-15
 
 # Velocity at the start, less the share of slip; acceleration; share of slip in the velocity.
 Coast = tuple[Vector, Vector, float]
+
+
+@kernel
+def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
+    """Whether the ball's resistance changes so little that it may be taken as constant.
+
+    That of a ball that slides up to the end of its slip, that of one that rolls up to its stop:
+    the change of the deceleration over that time moves it by less than a path may be off.
+    """
+    material = material_under(land, ball)
+    if material['resistance_growth'] == 0.0 or in_micro_bounces(ball, now):
+        return True
+    normal = load(ball['normal'])
+    press, downhill = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
+    k = land.ball.inertia
+    v = load(ball['velocity'])
+    growth = growth_rate(material, press)
+    if ball['phase'] == SLIDE:
+        braking = material['dynamic_friction'] * press
+        u = slip(v, load(ball['spin']), normal, land.ball.radius)
+        time = length(u) / max((1.0 + 1.0 / k) * braking, LEAST_BRAKE)
+        growth *= 1.0 + k
+        change = 2.0 * growth * (braking + growth * dot(v, v)) * length(v) * time
+    else:
+        braking = material['rolling_resistance'] * press - length(downhill) / (1.0 + k)
+        time = length(v) / max(braking, LEAST_BRAKE)
+        change = growth * dot(v, v)
+    return change * time * time <= EVENLY * land.limits.path
+
+
+@kernel
+def even_growth(land: Land, ball: BallRecord, press: float, v: Vector) -> float:
+    """Deceleration [m/s^2] that stands for what grows with speed until slip, or motion, ends.
+
+    Of a ball that slides its value half-way, of one that rolls its mean over the way.
+    """
+    material = material_under(land, ball)
+    k = land.ball.inertia
+    growth = growth_rate(material, press)
+    if ball['phase'] == SLIDE:
+        u = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
+        half_way = add_scaled(v, -0.5 * k / (1.0 + k), u)
+        return (1.0 + k) * growth * length(half_way) * length(half_way)
+    return 0.5 * growth * dot(v, v)
 
 
 @shared
@@ -66,6 +129,9 @@ def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
         pressing, downhill = micro_bounce_forces(ball, normal, press, downhill)
     k = land.ball.inertia
     v = load(ball['velocity'])
+    growing = 0.0 if tail else even_growth(land, ball, press, v)
+    if ball['phase'] == SLIDE and growing > 0.0:
+        downhill = add_scaled(downhill, -growing, unit(v, ZERO))
     drift = scale(1.0 / (1.0 + k), downhill)
     if ball['phase'] == SLIDE:
         u = slip(v, load(ball['spin']), normal, land.ball.radius)
@@ -76,7 +142,7 @@ def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
         motion = coulomb_deceleration.decelerated(u, downhill, friction, normal)
         coast = (add_scaled(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:
-        resistance = (
+        resistance = growing + (
             0.0 if tail else rolling_deceleration(material, press, rolling_needs(downhill, k))
         )
         motion = coulomb_deceleration.decelerated(v, drift, resistance, normal)
@@ -94,20 +160,23 @@ def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
     end = glide_end(motion, horizon)
     # The closed form is exact, its quintic interpolant is not: the segment is halved until it errs
     # by less than a path may.
-    x = ball['position']
-    rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
     while True:
         fit_glide(land, ball, motion, coast, end, (turning, unwinding))
         middle = coulomb_deceleration.half_way(motion, end)
-        allowed = max(
-            land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding
-        )
-        if not glide_error(ball, motion, coast, middle) > allowed:
+        if not glide_error(ball, motion, coast, middle) > allowed_error(land, ball):
             break
         end = middle
     ball['ending'] = STEP_END
     if end == inf:
         ball['ending'] = SLIP_STOPS if ball['phase'] == SLIDE else BALL_STOPS
+
+
+@kernel
+def allowed_error(land: Land, ball: BallRecord) -> float:
+    """Distance [m] by which the segment's curve may be off its closed form."""
+    x = ball['position']
+    rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
+    return max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding)
 
 
 @kernel

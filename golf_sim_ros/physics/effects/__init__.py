@@ -33,7 +33,7 @@ from types import MappingProxyType
 from typing import Callable, Iterable, Mapping, NamedTuple, Optional, Sequence, Union
 
 from . import protocol
-from ..geometry.surfaces import Ground
+from ..geometry.surfaces import Ground, in_cup
 from ..jit import kernel, literal_unroll
 from ..kernel_types import CourseRecord, EffectRecord, Effects, Vector
 from ..mechanics.vector import add, length, sub, ZERO
@@ -225,6 +225,28 @@ def flight_rates(
 
 
 @kernel
+def moving_air(
+    effects: Effects, ground: Ground, position: Vector, velocity: Vector, spin: Vector
+) -> Vector:
+    """Acceleration of a ball in contact by moving air, less that by still air.
+
+    What still air does to a ball on the ground is in its rolling resistance, as a stimpmeter
+    measures it. In the hole the air is still.
+    """
+    wind = wind_at(effects, ground, position)
+    if wind == ZERO or len(ground.hole) > 0 and in_cup(ground.hole, position):
+        return ZERO
+    through = sub(velocity, wind)
+    blown = protocol.Flow(through, length(through), spin, position, velocity)
+    still = protocol.Flow(velocity, length(velocity), spin, position, velocity)
+    force = ZERO
+    for effect in literal_unroll(effects):
+        more = sub(protocol.acceleration(effect, blown), protocol.acceleration(effect, still))
+        force = add(force, more)
+    return force
+
+
+@kernel
 def sinking(effects: Effects, position: Vector, velocity: Vector) -> Vector:
     """Acceleration of a ball under water."""
     weight = gravity_at(effects, position)
@@ -264,6 +286,14 @@ def effective_normal(
     for effect in literal_unroll(effects):
         normal = protocol.contact_normal(effect, normal, velocity, softness)
     return normal
+
+
+@kernel
+def velocity_after(effects: Effects, hit: protocol.Hit, velocity: Vector) -> Vector:
+    """Velocity of a ball after a `hit` that without the effects would leave at `velocity`."""
+    for effect in literal_unroll(effects):
+        velocity = protocol.departure(effect, hit, velocity)
+    return velocity
 
 
 def _discover() -> None:

@@ -32,26 +32,24 @@ NO_FLOW = 1e-18  # m^2/s^2: below this square of airspeed there is no aerodynami
 class DragLaw(NamedTuple):
     """Drag coefficient for a spin ratio S >= 0 and a Reynolds number Re, bounded and positive.
 
-    ``CD = base + high h + spin (1 + slow b) S^2 / (S^2 + half^2) + crisis c / (1 + (S / fade)^2)``
-    with ``c = 1 / (1 + (Re / crisis_at)^4)``, ``b = 1 / (1 + (Re / slow_at)^4)``,
-    ``h = q / (1 + q), q = (Re / high_at)^2``.
+    ``CD = (1 - c) (base + high h + spin s) + c (laminar + laminar_spin s)`` with
+    ``s = S^2 / (S^2 + half^2)``, ``h = q / (1 + q), q = (Re / high_at)^2`` and
+    ``c = 1 / (1 + (Re / crisis_at)^8)``.
 
-    c is the drag crisis of a ball that hardly spins: below it the flow separates early. Fitted by
-    tools/fit_aerodynamics.py to tour averages (PGA 2010s and 2023), a driver chart and wind-tunnel
-    points together: Re of 5e4 to 2.5e5, S of 0 to 0.32, and what irons do up to 0.6; beyond, it
-    only stays sensible.
+    c is the drag crisis: below `crisis_at` the boundary layer stays laminar and the flow separates
+    early, as from a smooth sphere. Fitted by tools/fit_aerodynamics.py to tour averages, a driver
+    chart, two launch monitors' models of flight and wind-tunnel points together: Re of 5e4 to
+    2.5e5 (a sphere from 3e3), S of 0 to 1; docs/validation.md says how well.
     """
 
-    base: float = 0.11
-    high: float = 0.1529
-    high_at: float = 1.564e5
-    spin: float = 0.1591
-    half: float = 0.1649
-    slow: float = 4.198
-    slow_at: float = 5.133e4
-    crisis: float = 0.5955
-    crisis_at: float = 5.519e4
-    fade: float = 0.05
+    base: float = 0.1319
+    high: float = 0.1209
+    high_at: float = 1.672e5
+    spin: float = 0.2242
+    half: float = 0.2114
+    laminar: float = 0.4507
+    laminar_spin: float = 0.0682
+    crisis_at: float = 6.531e4
 
 
 class Drag(NamedTuple):
@@ -72,17 +70,14 @@ def drag_coefficient(law: DragLaw, ss: float, rr: float, flow: float = 1.0) -> f
     # Most of the time of a flight is spent here: squares need no roots, and quotients are
     # independent.
     high = law.high_at * law.high_at
-    slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
-    crisis = law.crisis_at * law.crisis_at * law.crisis_at * law.crisis_at
-    half = law.half * law.half
-    fade = law.fade * law.fade
-    return (law.base + law.high * rr / (high + rr)) + (
-        law.spin
-        * ss
-        * (slow * (1.0 + law.slow) + rr * rr)
-        / ((slow + rr * rr) * (ss + half * flow))
-        + law.crisis * crisis * fade * flow / ((crisis + rr * rr) * (ss + fade * flow))
-    )
+    crisis = law.crisis_at * law.crisis_at
+    crisis = crisis * crisis
+    crisis = crisis * crisis
+    fast = rr * rr
+    spun = ss / (ss + law.half * law.half * flow)
+    laminar = crisis / (crisis + fast * fast)
+    turbulent = law.base + law.high * rr / (high + rr) + law.spin * spun
+    return turbulent + laminar * (law.laminar + law.laminar_spin * spun - turbulent)
 
 
 @protocol.acceleration.register(Drag)
@@ -97,10 +92,7 @@ def _acceleration(effect: Drag, flow: Flow) -> Vector:
 
 @protocol.longest_step.register(Drag)
 def turning_about(effect: Drag, ground: Ground, flow: Flow, force: Vector, wanted: float) -> float:
-    """Longest step [s] that can't overlook where drag reverses.
-
-    That of a throw straight up does.
-    """
+    """Longest step [s] that can't overlook where drag reverses, as on a throw straight up."""
     return (
         protocol.step_to_alignment(flow.velocity, force, CREEPING, wanted)
         if effect.push > 0.0

@@ -38,12 +38,12 @@ class LiftLaw(NamedTuple):
     Reynolds numbers, and one that grows with it. Fitted together with `drag.DragLaw`.
     """
 
-    early: float = 0.06887
+    early: float = 0.07761
     early_at: float = 0.02
-    lost: float = 0.4528
-    slow_at: float = 2.049e5
-    late: float = 0.3455
-    late_at: float = 0.2587
+    lost: float = 0.4113
+    slow_at: float = 1.267e5
+    late: float = 0.3755
+    late_at: float = 0.3335
 
 
 class Magnus(NamedTuple):

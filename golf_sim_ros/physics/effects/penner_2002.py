@@ -14,12 +14,14 @@
 
 """Soft turf as Penner (2002) published it: the contact normal's tilt grows without bound."""
 
+from math import acos
 from typing import NamedTuple
 
 from . import protocol, Scene
-from .turf import ANGLE, idle, SPEED, steepness, TILT, tilted  # noqa: F401  (idle where turf is)
+from .turf import ANGLE, idle, SPEED, TILT, tilted  # noqa: F401  (idle where turf is)
+from ..jit import kernel
 from ..kernel_types import Vector
-from ..mechanics.vector import length, tangential
+from ..mechanics.vector import dot, length, tangential
 
 INSTEAD_OF = ('turf',)
 
@@ -43,6 +45,13 @@ def _contact_normal(
     if softness == 0.0 or length(across) == 0.0:
         return normal
     return tilted(normal, across, softness * effect.rate * steepness(velocity, normal))
+
+
+@kernel
+def steepness(velocity: Vector, normal: Vector) -> float:
+    """Speed times angle from the `normal`, which Penner's tilt is proportional to [m/s rad]."""
+    speed = length(velocity)
+    return speed * acos(min(max(-dot(velocity, normal), 0.0) / speed, 1.0))
 
 
 def record(scene: Scene) -> Penner2002:

@@ -136,6 +136,27 @@ def contact_normal(
     return normal
 
 
+class Hit(NamedTuple):
+    """Impact with ground of a `normal`, after which a ball would leave by `push` alone.
+
+    ``velocity``: before [m/s]; ``felt``: effective contact normal; ``push``: impulse over mass
+    [m/s]; ``restitution``: at the approach along ``normal``; ``softness`` of the ground.
+    """
+
+    velocity: tuple
+    normal: tuple
+    felt: tuple
+    push: tuple
+    restitution: float
+    softness: float
+
+
+@generic
+def departure(effect: EffectRecord, hit: Hit, velocity: Vector) -> Vector:
+    """Velocity [m/s] after a `hit` of a ball that without `effect` would leave at `velocity`."""
+    return velocity
+
+
 @generic
 def set_live(effect: EffectRecord, value: np.ndarray) -> None:
     """Set the live parameter that is in the record of an `effect`, if it holds any.

@@ -212,7 +212,7 @@ def end_if_over(model: ModelRecord, ball: BallRecord, number: int, now: float, l
 def plan_or_fail(model: ModelRecord, ball: BallRecord, number: int, now: float, log: Log) -> None:
     """Plan the ball's next segment, or fail its shot if it can't go on.
 
-    Writes segment, integrator, contact, phase, motion, shot; logs a failure.
+    Writes segment, integrator, contact, on_flat, phase, motion, shot; logs a failure.
     """
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):
@@ -362,11 +362,11 @@ def play_all(
 
 @kernel
 def end_now(ball: BallRecord, now: float) -> None:
-    """End a flying ball's segment at `now`, since its surroundings have changed.
+    """End a moving ball's segment at `now`, since its surroundings have changed.
 
     Writes end, ending, last_stage_time. The last stage holds rates in the old surroundings.
     """
-    if ball['phase'] == FLIGHT:
+    if moves(ball['phase']):
         ball['end'] = now
         ball['ending'] = STEP_END
         ball['last_stage_time'] = -1.0

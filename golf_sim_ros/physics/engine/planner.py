@@ -30,13 +30,15 @@ from ..collision.water_entry import first_water_entry
 from ..contact.contact_state import (
     contact_material_number,
     heading,
+    in_micro_bounces,
     remove_slip,
     set_support,
     touch_down,
 )
 from ..contact.curved_motion import curved_segment
-from ..contact.plane_motion import plane_segment
-from ..effects import flight_rates, gravity_at
+from ..contact.plane_motion import plane_segment, resists_evenly
+from ..contact.straight_rolling import rolling_segment, rolls_straight
+from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..geometry.water_surface import water_at
 from ..integrators import step
@@ -89,8 +91,8 @@ SINKING_STEP = 0.02
 def plan_next_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Plan the ball's next segment from its state at `now`, up to its first event.
 
-    Writes segment, integrator, segments_spent, zero_length_segments, contact, phase, motion. The
-    last three change only where contact does.
+    Writes segment, integrator, segments_spent, zero_length_segments, contact, on_flat, phase,
+    motion. The last four change only where contact does.
     """
     ball['begin'] = now
     if not moves(ball['phase']):
@@ -216,8 +218,8 @@ def end_segment(model: ModelRecord, ball: BallRecord, now: float, until: float) 
 def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     """Plan a segment of a ball in contact; what it is on, such as ON_FLAT.
 
-    The ball may turn out to lift off. Writes motion, phase, contact, curve, ending, integrator,
-    segments_spent.
+    The ball may turn out to lift off. Writes motion, phase, contact, on_flat, curve, ending,
+    integrator, segments_spent.
     """
     land = model.land
     is_flat = surfaces.flat_under(land.ground, ball['support'], load(ball['position']))
@@ -228,12 +230,28 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     ahead = unit(load(ball['velocity']), ZERO)
     _, normal = surfaces.under(land.ground, ball['support'], load(ball['position']), ahead)
     store(ball['normal'], normal)
-    if flat_ground_goes_on(land, ball):  # in closed form
-        plane_segment(land, ball, now)
+    goes_on = flat_ground_goes_on(land, ball)
+    ball['on_flat'] = 1 if goes_on else 0
+    if goes_on:
+        if not is_in_still_air(land, ball, now):
+            curved_segment(model, ball, now)
+        elif resists_evenly(land, ball, now):  # in closed form
+            plane_segment(land, ball, now)
+        elif rolls_straight(land, ball, now):
+            rolling_segment(land, ball)
+        else:
+            curved_segment(model, ball, now)
         return ON_FLAT
     ball['material'] = contact_material_number(land, ball, ball['support'], normal)
     curved_segment(model, ball, now)
     return ON_CURVE if surfaces.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
+
+
+@kernel
+def is_in_still_air(land: Land, ball: BallRecord, now: float) -> bool:
+    """Whether no moving air pushes a ball in contact, beside what micro-bounces have of it."""
+    state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
+    return in_micro_bounces(ball, now) or moving_air(land.air, land.ground, *state) == ZERO
 
 
 @shared

@@ -78,9 +78,20 @@ def impulse(
 
 
 @kernel
-def apply_impulse(ball: BallRecord, push: Vector, normal: Vector, record: BallProperties) -> None:
-    """Apply the impulse `push` [N s] at the contact point of `normal`. Writes velocity, spin."""
-    store(ball['velocity'], add_scaled(load(ball['velocity']), 1.0 / record.mass, push))
+def after_impulse(
+    velocity: Vector, spin: Vector, push: Vector, normal: Vector, record: BallProperties
+) -> tuple[Vector, Vector]:
+    """Velocity and spin after the impulse `push` [N s] at the contact point of `normal`."""
     turn = scale(-record.radius, cross(normal, push))
     inertia = record.inertia * record.mass * record.radius * record.radius
-    store(ball['spin'], add_scaled(load(ball['spin']), 1.0 / inertia, turn))
+    return (add_scaled(velocity, 1.0 / record.mass, push), add_scaled(spin, 1.0 / inertia, turn))
+
+
+@kernel
+def apply_impulse(ball: BallRecord, push: Vector, normal: Vector, record: BallProperties) -> None:
+    """Apply the impulse `push` [N s] at the contact point of `normal`. Writes velocity, spin."""
+    velocity, spin = after_impulse(
+        load(ball['velocity']), load(ball['spin']), push, normal, record
+    )
+    store(ball['velocity'], velocity)
+    store(ball['spin'], spin)

@@ -57,11 +57,17 @@ class Material(NamedTuple):
     static_friction, dynamic_friction : float
         Coulomb's coefficients.
     rolling_resistance : float
-        Deceleration of a ball rolling on the level, over g.
+        Deceleration of a ball rolling slowly on the level, over g.
+    resistance_growth : float
+        Growth of that with the speed v, by the factor 1 + `resistance_growth` v^2 [s^2/m^2]: what
+        grows acts on the ball's centre, of a ball that slides, too.
     pivot_friction : float
         Torque against spin about the normal, over the normal force [m].
     softness : float
         Scales the tilt of the contact normal of soft turf; 0 is hard.
+    ploughing : float
+        Over 0 the ground is loose, as sand: an impact brakes the ball's centre by this times the
+        normal impulse, without the limit of grip, and rubs on its spin all around.
     color : tuple of 3 floats
         Red, green, blue, 0..1.
     drag : float
@@ -79,6 +85,8 @@ class Material(NamedTuple):
     softness: float = 0.0
     color: tuple[float, float, float] = (0.5, 0.5, 0.5)
     drag: float = 0.0
+    resistance_growth: float = 0.0
+    ploughing: float = 0.0
 
 
 def rolling_resistance_of_stimp(stimp: float) -> float:
@@ -98,6 +106,8 @@ MATERIAL = np.dtype(
         ('rolling_resistance', 'f8'),
         ('pivot_friction', 'f8'),
         ('softness', 'f8'),
+        ('resistance_growth', 'f8'),
+        ('ploughing', 'f8'),
     ],
     align=True,
 )
@@ -118,6 +128,8 @@ def table(materials: Iterable[Material]) -> np.ndarray:
             m.rolling_resistance,
             m.pivot_friction,
             m.softness,
+            m.resistance_growth,
+            m.ploughing,
         )
         for m in materials
     ]

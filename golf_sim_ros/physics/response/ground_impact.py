@@ -30,11 +30,12 @@ from ..contact.contact_state import (
     set_support,
     touch_down,
 )
-from ..effects import effective_normal, gravity_at
+from ..effects import effective_normal, gravity_at, velocity_after
+from ..effects.protocol import Hit
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Land, MaterialRecord, Vector, WorkRecord
-from ..mechanics.impulse import apply_impulse, ContactProperties, impulse
+from ..mechanics.impulse import after_impulse, ContactProperties, impulse
 from ..mechanics.vector import add_scaled, dot, length, load, scale, store, sub, tangential, ZERO
 from ..properties.material import restitution
 from ..state.ball import FLIGHT
@@ -123,22 +124,68 @@ def resolve_ground_impact(
 @kernel
 def apply_bounce(land: Land, ball: BallRecord, normal: Vector, material: MaterialRecord) -> None:
     """Apply the impulse of an impact with a surface of `normal`. Writes velocity and spin."""
-    before = load(ball['velocity'])
+    motion = load(ball['velocity']), load(ball['spin'])
+    velocity, spin = bounced(land, motion, normal, material)
+    store(ball['velocity'], velocity)
+    store(ball['spin'], spin)
+
+
+@kernel
+def bounced(
+    land: Land, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
+) -> tuple[Vector, Vector]:
+    """Velocity and spin after an impact of a ball of that `motion`, the two before."""
+    if material['ploughing'] > 0.0:
+        return ploughed(land, motion, normal, material)
+    before, spin = motion
     felt = effective_normal(land.effects, normal, before, material['softness'])
-    e = restitution(material, -dot(before, felt))
     bond = ContactProperties(
-        e,
+        restitution(material, -dot(before, felt)),
         material['tangential_restitution'],
         material['dynamic_friction'],
         land.ball.mass,
         land.ball.inertia,
     )
-    apply_impulse(
-        ball, impulse(bond, before, load(ball['spin']), felt, land.ball.radius), felt, land.ball
+    push = impulse(bond, before, spin, felt, land.ball.radius)
+    velocity, spin = after_impulse(before, spin, push, felt, land.ball)
+    hit = Hit(
+        before,
+        normal,
+        felt,
+        scale(1.0 / land.ball.mass, push),
+        restitution(material, -dot(before, normal)),
+        material['softness'],
     )
-    rebound = dot(load(ball['velocity']), normal)
+    velocity = velocity_after(land.effects, hit, velocity)
+    rebound = dot(velocity, normal)
     if rebound < 0.0:  # soft turf tilts the normal, which may leave velocity into the true surface
-        store(ball['velocity'], add_scaled(load(ball['velocity']), -rebound, normal))
+        velocity = add_scaled(velocity, -rebound, normal)
+    return velocity, spin
+
+
+@kernel
+def ploughed(
+    land: Land, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
+) -> tuple[Vector, Vector]:
+    """Velocity and spin after an impact with loose ground, into which the ball digs.
+
+    It brakes the centre, and it rubs on the spin, each up to a stop: so it gives the ball neither
+    spin from its motion nor motion from its spin.
+    """
+    before, spin = motion
+    approach = max(-dot(before, normal), 0.0)
+    e = restitution(material, approach)
+    push = (1.0 + e) * approach
+    along = shortened(tangential(before, normal), material['ploughing'] * push)
+    rubbed = material['dynamic_friction'] * push / (land.ball.inertia * land.ball.radius)
+    return add_scaled(along, e * approach, normal), shortened(spin, rubbed)
+
+
+@kernel
+def shortened(arrow: Vector, by: float) -> Vector:
+    """Vector `arrow` shortened `by` a length, to zero at most."""
+    size = length(arrow)
+    return scale(max(1.0 - by / size, 0.0), arrow) if size > 0.0 else ZERO
 
 
 @kernel
@@ -195,18 +242,18 @@ def effective_restitution(
     ball up. To first order the sum of v, e v, ... is
     v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): that of a constant restitution, the one at an
     approach of v / (1 + e0). Where that is much more than e0, first order does not do, and bounces
-    are followed one by one. A turf law that does not fade with the approach has no such sum at
-    all: of the very last bounces it is left out.
+    are followed one by one, and so they are where each brakes the ball in proportion. A turf law
+    that does not fade with the approach has no such sum at all: of the very last bounces it is
+    left out.
     """
     if rebound <= LEAST_SPEED:
         return 0.0
     e0 = restitution(material, 0.0)
     approach = rebound / (1.0 + e0)
     before = add_scaled(tangential(load(ball['velocity']), normal), -approach, normal)
-    felt = effective_normal(land.effects, normal, before, material['softness'])
-    into = -dot(before, felt)
-    e = (1.0 + restitution(material, into)) * into * dot(felt, normal) / approach - 1.0
-    if e - e0 < STEADY_RATIO * (1.0 - e0):
+    after, _ = bounced(land, (before, load(ball['spin'])), normal, material)
+    e = dot(after, normal) / approach
+    if e - e0 < STEADY_RATIO * (1.0 - e0) and material['ploughing'] == 0.0:
         return e
     if rebound < LAST_SHARE * micro_bounce_threshold(land, ball):
         return restitution(material, approach)

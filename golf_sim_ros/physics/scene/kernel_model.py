@@ -67,10 +67,15 @@ class Limits(NamedTuple):
 
 
 class GroundScene(NamedTuple):
-    """Model for a ball in contact: without wind and the like, which so recompile nothing."""
+    """Model for a ball in contact.
+
+    ``effects`` act on it as on any ball; ``air`` are those by which moving air pushes it, or
+    `Nothing` where the air is still.
+    """
 
     ball: Ball
     effects: Effects
+    air: Effects
     ground: Ground
     materials: np.ndarray
     limits: Limits
@@ -116,11 +121,19 @@ def build_model(course: Course, records: Effects, preset: Preset) -> Model:
     land = GroundScene(
         Ball(*map(float, course.ball)),
         on_land,
+        by_air(records),
         ground(course),
         table(materials(course)),
         preset.limits,
     )
     return Model(land, in_flight(records), preset.method)
+
+
+def with_effects(model: Model, records: Effects) -> Model:
+    """`Model` with other effect `records`, which have changed with the air only."""
+    return model._replace(
+        land=model.land._replace(air=by_air(records)), effects=in_flight(records)
+    )
 
 
 def in_flight(records: Effects) -> Effects:
@@ -133,6 +146,16 @@ def in_flight(records: Effects) -> Effects:
         protocol.spin_rate,
         protocol.under_water,
     )
+
+
+def by_air(records: Effects) -> Effects:
+    """Effects among `records` by which moving air acts on a ball in contact.
+
+    `Nothing` where no air moves.
+    """
+    if not any(type(r) in protocol.air_velocity.cases for r in records):
+        return (Nothing(),)
+    return speaking(records, protocol.air_velocity, protocol.acceleration)
 
 
 def speaking(records: Effects, *some: GenericKernel[..., Any]) -> Effects:

@@ -76,12 +76,14 @@ BALL = np.dtype(
         ('velocity', 'f8', 3),
         ('spin', 'f8', 3),
         ('phase', 'i8'),
-        # the contact: part of the ground that supports it, its material, the normal out of it;
-        # until when micro-bounces go on, their mean press over that of the weight, and the
-        # acceleration along the ground by the air meanwhile
+        # the contact: part of the ground that supports it, its material, the normal out of it,
+        # whether that is the normal all along its segment; until when micro-bounces go on, their
+        # mean press over that of the weight, and the acceleration along the ground by the air
+        # meanwhile
         ('support', 'i8'),
         ('material', 'i8'),
         ('normal', 'f8', 3),
+        ('on_flat', 'i8'),
         ('micro_bounce_end', 'f8'),
         ('micro_bounce_load', 'f8'),
         ('micro_bounce_air', 'f8', 3),

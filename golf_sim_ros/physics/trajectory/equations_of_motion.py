@@ -12,9 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Equations of motion: of a ball in flight, and of one on ground which is not flat."""
+"""Equations of motion: of a ball in flight, and of one in contact with ground."""
 
-from ..effects import flight_rates, gravity_at, sinking
+from ..effects import flight_rates, gravity_at, moving_air, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Land, MaterialRecord, ModelRecord, Vector
@@ -35,6 +35,8 @@ from ..mechanics.vector import (
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
+# 1/m: a ball loses half of its speed within 7 mm; more would only be stiff
+STIFFEST_GROWTH = 100.0
 
 
 @kernel
@@ -68,6 +70,13 @@ def rolling_deceleration(material: MaterialRecord, press: float, needed: float) 
         material['rolling_resistance'] * press,
         max(material['static_friction'] * press - needed, 0.0),
     )
+
+
+@kernel
+def growth_rate(material: MaterialRecord, press: float) -> float:
+    """Growth of a rolling ball's deceleration with the square of its speed [1/m]."""
+    growth = material['rolling_resistance'] * material['resistance_growth'] * press
+    return min(growth, STIFFEST_GROWTH)
 
 
 @kernel
@@ -112,39 +121,71 @@ def micro_bounce_forces(
     return ball['micro_bounce_load'] * press, add(downhill, along_ground)
 
 
+@kernel
+def pull_at(land: Land, place: Vector, velocity: Vector, spin: Vector) -> Vector:
+    """Acceleration of a ball in contact by its weight and by moving air."""
+    return add(
+        gravity_at(land.effects, place), moving_air(land.air, land.ground, place, velocity, spin)
+    )
+
+
+@kernel
+def supporting_surface(land: Land, ball: BallRecord, place: Vector) -> tuple[float, Vector]:
+    """Distance of `place` from the surface that supports the ball, and the normal there.
+
+    Flat ground counts as a plane without end: it is left at a border, an event of its own.
+    """
+    if ball['on_flat'] == 1:
+        normal = load(ball['normal'])
+        return land.ball.radius + dot(sub(place, load(ball['position'])), normal), normal
+    return surfaces.nearest(land.ground, ball['support'], place)
+
+
+@kernel
+def turn_of_normal(land: Land, ball: BallRecord, place: Vector, velocity: Vector) -> Vector:
+    """Rate of change of the normal of the supporting surface, as the ball moves at `velocity`."""
+    if ball['on_flat'] == 1:
+        return ZERO
+    return surfaces.turn(land.ground, ball['support'], place, velocity)
+
+
 @shared
 def contact_rates(
     land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
 ) -> tuple[Vector, Vector, float, float]:
     """Acceleration, angular acceleration, press, and friction needed to roll.
 
-    Of a ball on ground which is not flat. A press below 0 means that the ground would have to
-    pull.
+    Of a ball in contact. A press below 0 means that the ground would have to pull.
 
     With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
     mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =
     g_t + k r w_n (n x n'). A sliding ball has dynamic friction against its slip instead, or, where
-    it only begins to slip, along the friction that rolling would need.
+    it only begins to slip, along the friction that rolling would need. What of the resistance
+    grows with speed acts on the centre: 1 + k times the deceleration that it gives a rolling ball,
+    whose spin it has to slow as well.
     """
     r = land.ball.radius
     k = land.ball.inertia
-    _, normal = surfaces.nearest(land.ground, ball['support'], place)
-    turn = surfaces.turn(land.ground, ball['support'], place, velocity)
-    press, downhill = surfaces.slope(gravity_at(land.effects, place), normal)
+    _, normal = supporting_surface(land, ball, place)
+    turn = turn_of_normal(land, ball, place, velocity)
+    # Micro-bounces have the force of all air already.
+    tail = ball['micro_bounce_end'] > ball['begin']
+    pull = gravity_at(land.effects, place) if tail else pull_at(land, place, velocity, spin)
+    press, downhill = surfaces.slope(pull, normal)
     material = material_under(land, ball)
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
     # Single impacts do not brake a rolling ball, so neither do micro-bounces.
-    tail = ball['micro_bounce_end'] > ball['begin']
     load = press
     if tail:
         load, downhill = micro_bounce_forces(ball, normal, press, downhill)
     free = scale(1.0 / (1.0 + k), add_scaled(downhill, k * r * about, cross(normal, turn)))
     needed = length(sub(free, downhill))
     resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
+    growing = 0.0 if tail else growth_rate(material, press) * length(velocity)
     if length(velocity) > LEAST_SPEED:
-        free = add_scaled(free, -resistance / length(velocity), velocity)
+        free = add_scaled(free, -resistance / length(velocity) - growing, velocity)
     else:  # from rest it sets off along what drives it, if that exceeds the resistance
         free = scale(max(1.0 - resistance / max(length(free), 1e-300), 0.0), free)
     friction = sub(free, downhill)
@@ -153,6 +194,7 @@ def contact_rates(
         if length(against) <= LEAST_SPEED:
             against = friction
         friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
+        downhill = add_scaled(downhill, -(1.0 + k) * growing, velocity)
     force = add_scaled(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
     # no slip: the spin follows the velocity, which resistance brakes, too

@@ -1,0 +1,129 @@
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Rolling on level ground whose resistance grows with speed, in closed form.
+
+The ball rolls straight on, and v' = -(a + c v^2) is that of a falling body in quadratic drag,
+upwards: with an angle p, v = sqrt(a/c) tan p, which falls by sqrt(a c) a second, and the way is
+log(cos p1 / cos p0) / c.
+"""
+
+from math import atan, cos, log, sqrt, tan
+
+from .contact_state import in_micro_bounces
+from .plane_motion import allowed_error, LONGEST_SEGMENT
+from ..effects import gravity_at
+from ..geometry import surfaces
+from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, Vector
+from ..mechanics.vector import add_scaled, cross, dot, length, load, scale, store, sub, unit, ZERO
+from ..state.ball import BALL_STOPS, ROLL, STEP_END
+from ..trajectory.equations_of_motion import (
+    growth_rate,
+    LEAST_SPEED,
+    material_under,
+    rolling_deceleration,
+    unwinding,
+)
+from ..trajectory.segment import fit_segment, position
+
+# Deceleration at rest [m/s^2], and its growth with the square of the speed [1/m].
+Braking = tuple[float, float]
+
+
+@kernel
+def rolls_straight(land: Land, ball: BallRecord, now: float) -> bool:
+    """Whether the ball rolls on level ground, braked and without micro-bounces."""
+    if ball['phase'] != ROLL or in_micro_bounces(ball, now):
+        return False
+    weight = gravity_at(land.effects, load(ball['position']))
+    press, downhill = surfaces.slope(weight, load(ball['normal']))
+    return (
+        dot(downhill, downhill) == 0.0
+        and rolling_deceleration(material_under(land, ball), press, 0.0) > 0.0
+    )
+
+
+@shared
+def rolling_segment(land: Land, ball: BallRecord) -> None:
+    """Plan a segment up to the stop, or as far as a Bezier curve is exact.
+
+    Writes curve, ending.
+    """
+    normal = load(ball['normal'])
+    material = material_under(land, ball)
+    press, _ = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
+    braking = rolling_deceleration(material, press, 0.0), growth_rate(material, press)
+    turning = dot(load(ball['spin']), normal)
+    losing = unwinding(material, press, land.ball.radius, land.ball.inertia)
+    end = LONGEST_SEGMENT
+    if abs(turning) * land.ball.radius <= LEAST_SPEED:
+        turning = 0.0
+    if losing > 0.0 and turning != 0.0:
+        end = min(end, abs(turning) / losing)
+    pivot = (turning, losing if turning > 0.0 else -losing)
+    stop = atan(length(load(ball['velocity'])) * sqrt(braking[1] / braking[0])) / sqrt(
+        braking[0] * braking[1]
+    )
+    ball['ending'] = BALL_STOPS if stop <= end else STEP_END
+    end = min(end, stop)
+    while True:
+        fit_straight(land, ball, braking, end, pivot)
+        _, way = rolled_on(ball, braking, 0.5 * end)
+        off = sub(sub(position(ball, 0.5 * end), load(ball['origin'])), way)
+        if not length(off) > allowed_error(land, ball):
+            break
+        end *= 0.5
+        ball['ending'] = STEP_END
+
+
+@kernel
+def rolled_on(ball: BallRecord, braking: Braking, time: float) -> tuple[Vector, Vector]:
+    """Velocity and displacement of the ball after `time`, which is not after its stop."""
+    a, c = braking
+    v = load(ball['velocity'])
+    ahead = unit(v, ZERO)
+    begin = atan(length(v) * sqrt(c / a))
+    now = max(begin - sqrt(a * c) * time, 0.0)
+    return scale(sqrt(a / c) * tan(now), ahead), scale(log(cos(now) / cos(begin)) / c, ahead)
+
+
+@kernel
+def fit_straight(
+    land: Land, ball: BallRecord, braking: Braking, time: float, pivot: tuple[float, float]
+) -> None:
+    """Fit the segment to the motion up to `time`. Writes curve.
+
+    `pivot` is the spin about the normal, and what it loses a second.
+    """
+    normal = load(ball['normal'])
+    turning, losing = pivot
+    v0 = load(ball['velocity'])
+    v1, way = rolled_on(ball, braking, time)
+    ahead = unit(v0, ZERO)
+    a0 = scale(-braking[0] - braking[1] * dot(v0, v0), ahead)
+    a1 = scale(-braking[0] - braking[1] * dot(v1, v1), ahead)
+    left = turning - losing * time
+    if abs(left) <= 1e-12 * abs(turning):  # rounding must not leave it turning
+        left = 0.0
+    winding = -losing if turning != 0.0 else 0.0
+    ball['span'] = time
+    store(ball['origin'], load(ball['position']))
+    rolling = scale(1.0 / land.ball.radius, cross(normal, v1))
+    store(ball['spin_coefficients'][3], add_scaled(rolling, left, normal))
+    rates = (
+        add_scaled(scale(1.0 / land.ball.radius, cross(normal, a0)), winding, normal),
+        add_scaled(scale(1.0 / land.ball.radius, cross(normal, a1)), winding, normal),
+    )
+    fit_segment(ball, way, (v0, v1), (a0, a1), rates)

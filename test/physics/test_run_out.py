@@ -1,0 +1,278 @@
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""How far balls run on turf and in sand, against launch monitors and what golfers know."""
+
+import csv
+from functools import lru_cache
+from math import atan, log, pi
+from pathlib import Path
+
+from driving_range import launched, level
+from golf_sim_ros.course.material_file import shipped
+from golf_sim_ros.physics import ACCURACY, Course, Material, Phase, Plane, simulate_many, World
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+MPH, YARD, RPM, DEGREE, GRAVITY = 0.44704, 0.9144, pi / 30, pi / 180, 9.80665
+DATA = Path(__file__).parents[1] / 'data'
+FAIRWAYS = 'firm_fairway', 'fairway', 'soft_fairway'
+GREENS = 'firm_green', 'green', 'soft_green'
+TURFS = (*FAIRWAYS, *GREENS, 'tee', 'first_cut', 'rough', 'artificial_turf')
+
+
+@lru_cache
+def material(name):
+    """Shipped material of that name."""
+    return Material(name=name, **shipped()[0][name])
+
+
+def rows(name):
+    """Rows of a table in test/data."""
+    lines = (DATA / name).read_text().splitlines()
+    return list(csv.DictReader(line for line in lines if line[0] != '#'))
+
+
+def runs(name, speeds, launches, spins, azimuths=0.0, axes=0.0):
+    """How far shots go on from their carry [yd]: mph, degrees, rpm; axes tilted to the right."""
+    azimuths, axes = np.atleast_1d(azimuths) * -DEGREE, np.atleast_1d(axes) * DEGREE
+    velocities = launched(np.atleast_1d(speeds) * MPH, np.atleast_1d(launches) * DEGREE, azimuths)
+    left = np.stack((-np.sin(azimuths), np.cos(azimuths), 0.0 * azimuths), -1)
+    axis = np.cos(axes)[:, None] * left + np.sin(axes)[:, None] * np.array([0.0, 0.0, 1.0])
+    shots = simulate_many(
+        level(material(name)), velocities, -np.atleast_1d(spins)[:, None] * RPM * axis
+    )
+    return (np.hypot(*shots['position'][:, :2].T) - shots['carry']) / YARD
+
+
+@pytest.mark.parametrize(
+    'name, least, most', [('fairway', 16.0, 24.0), ('firm_fairway', 26.0, 40.0)]
+)
+def test_the_tours_average_drive_runs_out_as_on_a_fairway(name, least, most):
+    drive = rows('trackman_pga_2023.csv')[0]
+    found = runs(name, *(float(drive[k]) for k in ('ball_speed_mph', 'launch_deg', 'spin_rpm')))
+    assert drive['club'] == 'Driver' and least <= found[0] <= most
+
+
+def test_softer_fairways_stop_a_drive_sooner():
+    found = [runs(name, 167, 10.9, 2686)[0] for name in FAIRWAYS]
+    assert found == sorted(found, reverse=True)
+
+
+def test_runs_on_a_fairway_are_those_of_another_model():
+    table = rows('flightscope_launches.csv')
+    names = 'ball_speed_mph', 'launch_deg', 'total_spin_rpm', 'azimuth_deg', 'spin_axis_deg'
+    columns = [np.array([float(row[name]) for row in table]) for name in names]
+    told = np.array([float(row['run_yd']) for row in table])
+    errors = runs('fairway', *columns) - told
+    lowest = columns[1] < 9.0
+    assert lowest.sum() == 2 and np.abs(errors[lowest]).max() <= 12.0
+    assert len(errors) == 18 and np.abs(errors).mean() <= 5.0
+
+
+@pytest.mark.parametrize('mph, launch', [(102, 24.2), (104, 23.7)])
+def test_a_full_wedge_of_10000_rpm_comes_back_on_a_soft_green(mph, launch):
+    found = simulate_many(
+        level(material('soft_green')),
+        launched(np.array([mph * MPH]), launch * DEGREE),
+        [(0.0, -10000 * RPM, 0.0)],
+    )[0]
+    assert 1.0 <= found['carry'] - found['position'][0] <= 5.0
+
+
+@pytest.mark.parametrize('launch', [30, 40, 45, 50, 55])
+def test_a_flop_does_not_come_back_all_the_way(launch):
+    for name in GREENS:
+        found = simulate_many(
+            level(material(name)),
+            launched(np.array([68 * MPH]), launch * DEGREE),
+            [(0.0, -12000 * RPM, 0.0)],
+        )[0]
+        assert found['carry'] - found['position'][0] <= 6.0
+
+
+def played(course, place, velocity, spin, tick=0.02, longest=400.0):
+    """Way of a ball to its rest: times, positions and velocities at ticks."""
+    world = World(course)
+    world.place('ball', place, velocity=velocity, spin=spin)
+    told = [world['ball']]
+    while world.moving and len(told) * tick < longest:
+        world.advance(tick)
+        told.append(world['ball'])
+    times = tick * np.arange(len(told))
+    return times, np.array([b.position for b in told]), np.array([b.velocity for b in told])
+
+
+def hop(places, velocities):
+    """Greatest height of a ball once it has left the ground for the first time."""
+    rises = np.flatnonzero(np.diff(velocities[:, 2]) > 0.0)
+    first = rises[0] + 1 if len(rises) else -1
+    return places[first:, 2].max()
+
+
+@pytest.mark.parametrize('name', [*FAIRWAYS, 'tee', 'first_cut', 'rough'])
+@pytest.mark.parametrize('down', [False, True])
+def test_thinned_and_topped_balls_stay_low_and_stop(name, down):
+    course = level(material(name))
+    radius = course.ball.radius
+    for speed in (25.0, 41.0, 60.0):
+        for angle in (0.3, 1.7, 3.0):
+            # Topped, or hit onto the ground: a thinned one with backspin flies on, up to 140 m.
+            for topspin in (0.0, 150.0, 300.0, *((-150.0, -300.0) if down else ())):
+                velocity = launched(speed, -angle * DEGREE if down else angle * DEGREE)
+                _, places, motion = played(
+                    course, (0.0, 0.0, radius + 1e-3), velocity, (0.0, topspin, 0.0)
+                )
+                assert hop(places, motion) - radius <= 0.6
+                if name not in ('firm_fairway', 'tee'):
+                    assert places[-1, 0] <= 110.0 * YARD
+
+
+@pytest.mark.parametrize('mph, launch, rpm', [(92.0, 1.7, 2100.0), (92.0, 3.0, 2800.0)])
+def test_a_thinned_iron_does_not_rise_after_its_first_touch(mph, launch, rpm):
+    course = level(material('fairway'))
+    _, places, motion = played(
+        course,
+        (0.0, 0.0, course.ball.radius),
+        launched(mph * MPH, launch * DEGREE),
+        (0.0, -rpm * RPM, 0.0),
+    )
+    assert hop(places, motion) - course.ball.radius <= 0.6
+    assert places[-1, 0] <= 110.0 * YARD
+
+
+def holding_slope(turf):
+    """Steepest slope on which a ball at rest stays, and one that rolls comes to rest."""
+    return min(1.4 * turf.rolling_resistance, max(turf.static_friction, turf.dynamic_friction))
+
+
+@pytest.mark.parametrize('name', TURFS)
+def test_a_ball_that_bounces_rests_where_one_that_rolls_does(name):
+    turf = material(name)
+    for percent in range(0, 61, 2):
+        tilt = atan(percent / 100)
+        if percent / 100 >= holding_slope(turf):
+            break
+        up = np.array((np.sin(tilt), 0.0, np.cos(tilt)))
+        course = Course((Plane(normal=tuple(up), material=turf),))
+        foot = course.ball.radius * up
+        downhill = np.array((np.cos(tilt), 0.0, -np.sin(tilt)))
+        for ahead in (downhill, -downhill, np.array((0.0, 1.0, 0.0))):
+            dropped = played(course, foot + (0, 0, 3.0), 15.0 * ahead, (0, 0, 0), 0.25)[0][-1]
+            if percent / 100 <= 0.85 * holding_slope(turf):
+                assert dropped <= 60.0
+                continue
+            spin = np.cross(up, 15.0 * ahead) / course.ball.radius
+            rolled = played(course, foot, 15.0 * ahead, spin, 0.25)[0][-1]
+            # Falling and bouncing take up to 3 s, in which nothing brakes.
+            assert dropped <= 3.0 + 1.5 * rolled
+
+
+def in_sand(speed, angle, backspin=0.0):
+    """Way of a ball from its impact with level sand."""
+    course = level(material('sand'))
+    return played(
+        course,
+        (0.0, 0.0, course.ball.radius),
+        launched(speed, -angle * DEGREE),
+        (0.0, -backspin, 0.0),
+        tick=0.005,
+    )
+
+
+@pytest.mark.parametrize('backspin', [0.0, 400.0, 1000.0])
+def test_sand_stops_what_comes_down_steeply_and_not_what_skims(backspin):
+    for speed, angle, most in (
+        (30.0, 45.0, 4.0),
+        (20.0, 45.0, 2.0),
+        *((speed, angle, 0.5) for speed in (20.0, 30.0) for angle in (60.0, 75.0, 90.0)),
+    ):
+        assert np.abs(in_sand(speed, angle, backspin)[1][:, 0]).max() <= most
+    _, places, motion = in_sand(30.0, 10.0, backspin)
+    assert np.linalg.norm(motion[places[:, 0] > 5.0][0]) >= 10.0
+    assert places[-1, 0] <= 30.0
+
+
+GRASS = Material('grass', rolling_resistance=0.13, resistance_growth=0.07, dynamic_friction=0.4)
+BRAKE = 0.13 * GRAVITY
+
+
+def rolled_out(speed):
+    """Way on level grass of a ball that rolls: v' = -a (1 + b v^2), a closed form."""
+    return log(1.0 + 0.07 * speed * speed) / (2.0 * BRAKE * 0.07)
+
+
+def rest_on(course, velocity, spin, accuracy='standard'):
+    """Place where a ball rests that is set off on a course's plane through the origin."""
+    normal = np.array(course.ground[0].normal, float)
+    world = World(course, accuracy=accuracy)
+    place = course.ball.radius * normal / np.linalg.norm(normal)
+    world.place('ball', place, velocity=velocity, spin=spin)
+    world.advance(60.0)
+    assert world['ball'].phase == Phase.REST
+    return np.array(world['ball'].position) - place
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+@pytest.mark.parametrize('speed', [0.5, 3.0, 12.0, 41.0])
+def test_resistance_that_grows_with_speed_is_exact_in_a_straight_line(accuracy, speed):
+    course = level(GRASS)
+    found = rest_on(course, (speed, 0, 0), (0, speed / course.ball.radius, 0), accuracy)
+    assert abs(found[0] - rolled_out(speed)) < (1e-8 if accuracy == 'reference' else 5e-5)
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+@pytest.mark.parametrize('speed, backspin', [(3.0, 0.0), (12.0, 0.0), (41.0, 100.0)])
+def test_grass_brakes_the_centre_of_a_ball_that_slides(accuracy, speed, backspin):
+    course = level(GRASS)
+    radius, friction = course.ball.radius, 0.4 * GRAVITY
+
+    def rates(_, state):
+        return state[1], -friction - 1.4 * BRAKE * 0.07 * state[1] ** 2, 2.5 * friction
+
+    def slip(_, state):
+        return state[1] - state[2]
+
+    slip.terminal = True
+    start = 0.0, speed, -radius * backspin
+    way = solve_ivp(rates, (0.0, 60.0), start, events=slip, rtol=1e-12, atol=1e-12)
+    expected = way.y[0, -1] + rolled_out(way.y[1, -1])
+    found = rest_on(course, (speed, 0, 0), (0, -backspin, 0), accuracy)
+    assert abs(found[0] - expected) < (1e-6 if accuracy == 'reference' else 1e-4)
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+def test_grass_on_a_slope_is_the_same_ode(accuracy):
+    fall = 0.1
+    course = Course((Plane(normal=(0.0, -fall, 1.0), material=GRASS),))
+    up = np.array((0.0, -fall, 1.0)) / np.hypot(fall, 1.0)
+    across, uphill = np.array((1.0, 0.0, 0.0)), np.cross(up, (1.0, 0.0, 0.0))
+    press, pull = GRAVITY * up[2], 5 / 7 * GRAVITY * uphill[2]
+
+    def rates(_, state):
+        x, y, u, v = state
+        brake = 0.13 * press * (1.0 / np.hypot(u, v) + 0.07 * np.hypot(u, v))
+        return u, v, -brake * u, -brake * v - pull
+
+    def stops(_, state):
+        return np.hypot(state[2], state[3]) - 1e-5
+
+    stops.terminal = True
+    start = 0.0, 0.0, 8.0, 3.0
+    way = solve_ivp(rates, (0.0, 60.0), start, events=stops, rtol=1e-12, atol=1e-12)
+    velocity = 8.0 * across + 3.0 * uphill
+    found = rest_on(course, velocity, np.cross(up, velocity) / course.ball.radius, accuracy)
+    expected = way.y[0, -1] * across + way.y[1, -1] * uphill
+    assert np.linalg.norm(found - expected) < (1e-7 if accuracy == 'reference' else 2e-4)
