@@ -118,7 +118,7 @@ def make(folder, distro):
     sourced = 'ROS_DISTRO' in os.environ
     if not sourced:
         check_platform()
-    print('Making %s: the first time takes a minute or two and 750 MB.' % folder)
+    print('Making %s: the first time takes a minute or two and 1.1 GB.' % folder)
     sys.stdout.flush()
     venv.create(folder, clear=True, with_pip=True, symlinks=True, system_site_packages=sourced)
     python = os.path.join(os.path.abspath(folder), 'bin', 'python')

@@ -27,6 +27,7 @@ SHADE = 0.5  # brightness of what the sun does not reach; level ground has 1
 BRIGHTEST = 1.5
 STRIPES = {'fairway': 7.0, 'tee': 1.5, 'green': 1.8, 'firm_green': 1.8, 'soft_green': 1.8}  # m
 CONTRAST = 0.07  # of a stripe to either side
+SEAM = 1e-6  # m: what begins at the edge of a stripe belongs to it
 
 
 def lit(corners: np.ndarray, material: Material) -> np.ndarray:
@@ -50,7 +51,8 @@ def lit(corners: np.ndarray, material: Material) -> np.ndarray:
     light = SHADE + (1.0 - SHADE) * np.clip(normals @ SUN, 0.0, None) / SUN[2]
     width = STRIPES.get(material.name)
     if width:
-        band = np.floor(corners[:, :, 0].mean(1) / width).astype(int)
+        # by the left edge, which the two triangles of a height map's cell have in common
+        band = np.floor((corners[:, :, 0].min(1) + SEAM) / width).astype(int)
         light = light * np.where(band % 2 == 0, 1.0 + CONTRAST, 1.0 - CONTRAST)
     shaded = np.minimum(light, BRIGHTEST)[:, np.newaxis] * np.array(material.color, float)
     return np.clip(shaded, 0.0, 1.0)

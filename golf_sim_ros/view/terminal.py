@@ -63,7 +63,10 @@ async def rounds(game: Any, options: Any) -> int:
     try:
         while True:
             session = game.session
-            await until(session.can_strike)
+            await until(lambda: session.can_strike() or trouble(game))
+            if trouble(game):
+                print(f'play_hole: {trouble(game)}', file=sys.stderr, flush=True)
+                return 1
             tee_off(session, options.units)
             if options.demo:
                 await demonstrated(session, worker, game, options.units)
@@ -76,6 +79,12 @@ async def rounds(game: Any, options: Any) -> int:
             session.course = None
     finally:
         await worker.ended()
+
+
+def trouble(game: Any) -> str:
+    """Why there is nothing to play; '' where there is, or may be soon."""
+    ended = game.own is not None and game.own.has_ended
+    return game.session.problem or ('the sim has ended' if ended else '')
 
 
 def tee_off(session: Session, units: str) -> None:
