@@ -25,7 +25,7 @@ import pytest
 
 @pytest.fixture
 def session():
-    """A session with a ball on the tee of links."""
+    """Make a session with a ball on the tee of links."""
     made = Session(is_game=True)
     made.course, made.places = load_course('links'), {0: (0.0, 0.0, 0.02)}
     made.round.begin(made.course)
