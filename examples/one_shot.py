@@ -12,10 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A client of the simulator: one shot, and what became of it.
-
-`python3 one_shot.py`, with ROS 2 sourced.
-"""
+"""A client of the simulator: one shot, and what became of it."""
 
 import json
 
@@ -26,9 +23,7 @@ from std_msgs.msg import String
 rclpy.init()
 node = rclpy.create_node('golfer')
 results = []
-node.create_subscription(
-    String, 'shot/result', lambda told: results.append(json.loads(told.data)), 10
-)
+node.create_subscription(String, 'shot/result', lambda told: results.append(told.data), 10)
 shots = node.create_publisher(Twist, 'shot', 10)
 while not (shots.get_subscription_count() and node.count_publishers('shot/result')):
     rclpy.spin_once(node, timeout_sec=0.1)  # until the simulator is found
@@ -39,9 +34,6 @@ shot.angular.y = -280.0  # rad/s: backspin
 shots.publish(shot)
 while not results:
     rclpy.spin_once(node, timeout_sec=0.1)
-print(
-    '{status}: {carry:.1f} m carry, {total:.1f} m in all, {to_hole} m to the hole'.format(
-        **results[0]
-    )
-)
+said = '{status}: {carry:.1f} m carry, {total:.1f} m in all, {to_hole} m to the hole'
+print(said.format(**json.loads(results[0])))
 rclpy.shutdown()

@@ -460,7 +460,7 @@ def test_a_wrong_line_is_named(complaint, line, said):
         ('{a: }', 'materials.a nothing must be a mapping'),
         (
             '{a: {like: gren}}',
-            f"materials.a.like 'gren' is unknown; known: {KNOWN}; did you mean 'green'?",
+            "materials.a.like 'gren' is unknown; known: artificial_turf, cup, fairway, ",
         ),
         ('{a: {like: 3}}', 'materials.a.like 3 must be a line of text'),
         (

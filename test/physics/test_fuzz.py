@@ -51,8 +51,9 @@ def told():
 def test_random_scenes_are_refused_by_name_or_played_to_their_end(told):
     assert [trouble for *_, trouble in told] == [''] * len(SEEDS)
     for refused, statuses, *_ in told:
+        # A ball that a gale keeps rolling is not struck.
         assert (
-            len(statuses) >= 5 or 'scene.yaml: ' in refused or refused.startswith('World: balls ')
+            len(statuses) >= 3 or 'scene.yaml: ' in refused or refused.startswith('World: balls ')
         )
 
 

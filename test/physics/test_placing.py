@@ -56,6 +56,7 @@ def test_a_teed_ball_is_held_on_any_slope_and_in_any_wind_until_it_is_struck(gra
     assert world.advance(10.0) == [] and world['ball'] == before
     world.set_wind((50.0, 0.0, 0.0))
     assert world.advance(10.0) == [] and world['ball'] == before
+    world.set_wind((0.0, 0.0, 0.0))
     world.strike('ball', (0.0, 0.0, 1.0))
     assert world.moving
     world.advance(2.0)

@@ -45,7 +45,7 @@ ACCURACY = {
         use='watching many shots at once',
     ),
     'standard': Preset(
-        DormandPrince(2.3e-4), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2, use='playing'
+        DormandPrince(1.5e-4), Limits(settle=0.1, path=1e-6), touch=1e-3, rest=1e-2, use='playing'
     ),
     'reference': Preset(
         DormandPrince(1e-10),
