@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # make play    three shots over ROS 2: a drive, an approach, a putt; play/ keeps the recording and a picture
+# make view    a hole to play in a browser: prints its address; VIEW_ARGS='putting_green --demo' for others
 # make sim     the simulator and the wind, until Ctrl-C
 # make hard    every hard case with every preset and at three rates: docs/stability.md; HARD_ARGS='shots' for a part
 # make bench   what is fast and what is not, against baselines of the same run; BENCH_ARGS=--quick for less
 # make fuzz    random scenes, malformed and extreme messages, broken files: what stops the sim; FUZZ_ARGS='--scenes 2000'
 #              and FUZZ_FILES_ARGS='--count 20000 --kinds courses' for longer
 # make docs    docs/ and the docstrings as HTML: build/docs/html/index.html; in an environment of its own, .venv_docs
-# make lint    flake8 and ruff, there, too
+# make lint    flake8, ruff, pydocstyle and mypy, there, too
 # make test    all tests; PYTEST_ARGS='-k bounce' for some
 #
 # Each makes .venv first if need be; nothing is installed elsewhere. Another Python: make PYTHON=python3.12 play
@@ -22,14 +23,18 @@ BENCH_ARGS ?=
 HARD_ARGS ?=
 FUZZ_ARGS ?=
 FUZZ_FILES_ARGS ?=
+VIEW_ARGS ?=
 
 # Set when make was started by a Python that has ROS 2 as wheels; it would keep .venv's from finding their libraries.
 unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 
-.PHONY: play sim test hard fuzz bench docs lint environment docs_environment clean
+.PHONY: play view sim test hard fuzz bench docs lint environment docs_environment clean
 
 play: environment
 	@$(VENV)/bin/python tools/play.py
+
+view: environment
+	@$(VENV)/bin/play_hole $(VIEW_ARGS)
 
 sim: environment
 	@$(VENV)/bin/python tools/sim.py
@@ -53,7 +58,10 @@ docs: docs_environment
 
 lint: docs_environment
 	@$(DOCS_VENV)/bin/python -m flake8
+	@$(DOCS_VENV)/bin/python -m pydocstyle golf_sim_ros
 	@$(DOCS_VENV)/bin/ruff check
+	@$(DOCS_VENV)/bin/ruff format --check
+	@$(DOCS_VENV)/bin/python -m mypy
 
 # Needs neither ROS nor numba. Made anew where setup.py is newer.
 docs_environment: $(DOCS_VENV)/made

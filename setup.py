@@ -28,7 +28,10 @@ EXECUTABLES = {
     'record_play': 'golf_sim_ros.cli.record_play:main',
     'resimulate': 'golf_sim_ros.cli.resimulate:main',
     'plot_play': 'golf_sim_ros.cli.plot_play:main',
+    'view_play': 'golf_sim_ros.cli.view_play:main',
+    'play_hole': 'golf_sim_ros.cli.play_hole:main',
     'accuracy_study': 'golf_sim_ros.cli.accuracy_study:main',
+    'compare_shots': 'golf_sim_ros.cli.compare_shots:main',
     'compile_physics': 'golf_sim_ros.cli.compile_physics:main',
 }
 
@@ -43,6 +46,19 @@ WHEELS = [
     'visualization-msgs',
     'diagnostic-msgs',
     'rosgraph-msgs',
+]
+
+# flake8 with the plugins of ament_flake8. The layout of ruff changes from one 0.x to the next.
+LINTERS = [
+    'flake8',
+    'flake8-blind-except',
+    'flake8-builtins',
+    'flake8-class-newline',
+    'flake8-comprehensions',
+    'flake8-deprecated',
+    'flake8-docstrings',
+    'flake8-import-order',
+    'flake8-quotes',
 ]
 
 # Without numba all works, many balls and batches slowly: it is asked for only where it comes as a
@@ -75,6 +91,7 @@ setup(
     maintainer_email='maintainers@golf-sim-ros.example.org',
     python_requires='>=3.10',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    package_data={PACKAGE: ['py.typed'], f'{PACKAGE}.view': ['*.js', 'js/*.js']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (SHARE, ['package.xml']),
@@ -83,6 +100,7 @@ setup(
         *folders('config'),
         *folders('launch'),
         *folders('rviz'),
+        *folders('foxglove'),
     ],
     entry_points={
         'console_scripts': [f'{name} = {target}' for name, target in EXECUTABLES.items()]
@@ -96,10 +114,12 @@ setup(
         'terrain': ['rasterio'],
         'bag': ['rosbags>=0.10'],
         'plot': ['matplotlib', 'rosbags>=0.10'],
+        'view': ['nicegui>=3.18,<4', 'rosbags>=0.10'],
+        'browser': ['playwright'],  # with a Chromium, for the tests of the page in one
         'bench': ['matplotlib', 'mujoco', 'pybullet', 'scipy', 'tqdm'],
         'study': ['matplotlib', 'scipy', 'tqdm'],
         'docs': ['sphinx>=7.2', 'myst-parser', 'sphinx-rtd-theme'],
-        'lint': ['flake8', 'ruff'],
+        'lint': [*LINTERS, 'mypy', 'pydocstyle', 'ruff==0.17.*'],
         'test': [
             'pytest',
             'pytest-xdist',
@@ -111,6 +131,7 @@ setup(
             'trimesh',
             'rasterio',
             'dask[distributed]',
+            'nicegui>=3.18,<4',
         ],
     },
     zip_safe=False,

@@ -67,7 +67,7 @@ def last_values():
 
 
 def line(row, before):
-    """A row as text."""
+    """Give a row as text."""
     was = '' if before is None else f'{before:.3g}'
     wanted = (
         f'at least {row.least:g}'

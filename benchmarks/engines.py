@@ -149,9 +149,9 @@ def overlap(places):
     """How deep [m] the two balls that overlap most do."""
     deepest = 0.0
     for i in range(len(places) - 1):
-        deepest = max(
-            deepest, 2 * RADIUS - np.linalg.norm(places[i + 1 :] - places[i], axis=1).min()
-        )
+        after = i + 1
+        nearest = np.linalg.norm(places[after:] - places[i], axis=1).min()
+        deepest = max(deepest, 2 * RADIUS - nearest)
     return deepest
 
 
@@ -160,7 +160,7 @@ class PyBullet:
 
     @staticmethod
     def load():
-        """The module."""
+        """Import the module."""
         import pybullet
 
         return pybullet
@@ -238,7 +238,7 @@ class MuJoCo:
 
     @staticmethod
     def load():
-        """The module."""
+        """Import the module."""
         import mujoco
 
         return mujoco

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""`sim_node` in a process of its own, balls in flight all the time: its share of a core, and its pace.
+"""`sim_node` in a process of its own, balls in flight all the time: share of a core, and pace.
 
 Somebody listens to the balls' poses, for what nobody listens to is not made; but does not read
 them, or reading would take as much of the machine as simulating.
@@ -37,7 +37,7 @@ tee: [0, 0]
 ground:
   - {shape: plane, point: [0, 0, 0], normal: [0, 0, 1], material: sand}
 """  # a ball ends where it lands, so that one that is struck again at once is always in flight
-# m/s: some of many balls higher than others, so that they land apart
+# m/s: some of many balls go higher than others, so that they land apart
 AHEAD, UP, HIGHER = 10.0, 40.0, 30.0
 
 
@@ -95,7 +95,10 @@ def figures(name, seconds, balls, most=float('inf'), **parameters):
 
 
 def watched(sim, balls, seconds):
-    """Share of a core [%] of a process `sim`, mean real-time factor, ticks made up, while its balls fly."""
+    """Measure a process `sim` while its balls fly: share of a core [%], pace, ticks made up.
+
+    The pace is the mean real-time factor.
+    """
     from diagnostic_msgs.msg import DiagnosticArray
     from geometry_msgs.msg import PoseStamped, Twist
     from golf_sim_ros.nodes.lifecycle import EventsExecutor

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What an effect costs that is off: drives, against a build of the package without the effect's file."""
+"""What an effect costs that is off: drives, against a build of the package without its file."""
 
 import ast
 from contextlib import contextmanager, ExitStack
@@ -73,7 +73,7 @@ def row(names, effects):
 
 @contextmanager
 def build(folder, effects, cache):
-    """A process that plays with the package in `folder`."""
+    """Start a process that plays with the package in `folder`."""
     command = [sys.executable, str(Path(__file__).with_name('build.py')), str(folder), effects]
     with subprocess.Popen(
         command,
@@ -87,7 +87,10 @@ def build(folder, effects, cache):
 
 
 def paired(first, second):
-    """Times [s] of two builds, one after the other: which is first makes a difference of a percent or two."""
+    """Time two builds [s], one after the other.
+
+    Which is first makes a difference of a percent or two.
+    """
     return time(first), time(second)
 
 
@@ -99,7 +102,10 @@ def time(process):
 
 
 def take_out(name, package):
-    """Take an effect out of a `package`: its file, or what makes it one where others import from the file."""
+    """Take an effect out of a `package`.
+
+    That is its file, or what makes it an effect where others import from the file.
+    """
     path = package / 'physics' / 'effects' / f'{name}.py'
     sources = [source.read_text() for source in package.rglob('*.py') if source != path]
     if not any(f'{name} import' in source for source in sources):

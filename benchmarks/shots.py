@@ -79,12 +79,12 @@ def rows(quick):
 
 
 def ground(name):
-    """A shipped `Material`."""
+    """Return a shipped `Material`."""
     return materials({}, shipped()[0])[name]
 
 
 def volley(scene, count=SHOTS, accuracy='standard', **how):
-    """A function that plays `count` equal shots of a scene."""
+    """Return a function that plays `count` equal shots of a scene."""
     velocities, spins = (
         np.tile(scene.shot.velocity, (count, 1)),
         np.tile(scene.shot.spin, (count, 1)),
@@ -94,12 +94,15 @@ def volley(scene, count=SHOTS, accuracy='standard', **how):
 
 
 def flights(scene, method, rtol):
-    """A function that lets scipy fly FLIGHTS times: one alone would find the caches full of our shots."""
+    """Return a function that lets scipy fly FLIGHTS times.
+
+    One flight alone would find the caches full of our shots.
+    """
     return lambda: [fly(scene, method, rtol) for _ in range(FLIGHTS)]
 
 
 def error_levels(scene, levels):
-    """Rows: our fastest setting that is exact to a level at first touch, over scipy's fastest flight."""
+    """Rows: our fastest setting that is exact to a level at first touch, over scipy's fastest."""
     truth = played(scene, TRUTH).touch
     ours, theirs = [], []
     for preset in settings():
@@ -125,7 +128,10 @@ def error_levels(scene, levels):
 
 
 def settings():
-    """Presets to try: Dormand-Prince over its tolerances, with limits from coarse to those of `reference`."""
+    """Presets to try: Dormand-Prince over its tolerances, with limits from coarse to fine.
+
+    The finest limits are those of `reference`.
+    """
     for tolerance in TOLERANCES:
         for limits in (
             Limits(settle=1.0, path=1e-3),

@@ -57,7 +57,9 @@ def lone(play, count=1, rounds=ROUNDS, clock=process_time):
 
 
 def faster(name, ours, baseline, counts=(1, 1), rounds=ROUNDS, clock=process_time, **wanted):
-    """`Row` of how many times as fast a call is as the baseline's, for one of the `counts` that each does.
+    """Time a call against the baseline's: a `Row` of how many times as fast it is.
+
+    That is for one of the `counts` that each does.
 
     They are timed in turns, each tried before. Time is that of the process; where threads are
     compared, `clock` is that of the wall.

@@ -37,7 +37,7 @@ from golf_sim_ros.course.package_files import share
 
 project = 'golf_sim_ros'
 author = 'golf_sim_ros maintainers'
-copyright = f'{author}, Apache-2.0'
+copyright = f'{author}, Apache-2.0'  # noqa: A001
 version = release = golf_sim_ros.__version__
 
 extensions = ['myst_parser', 'sphinx.ext.autodoc', 'sphinx.ext.napoleon']
@@ -59,7 +59,10 @@ autodoc_mock_imports = [
     'visualization_msgs',
     'diagnostic_msgs',
     'rosgraph_msgs',
+    'tf2_msgs',
     'builtin_interfaces',
+    'nicegui',
+    'fastapi',
     'numba',
     'llvmlite',
     'rosbags',
@@ -83,12 +86,15 @@ def repository():
 
 
 def link_to_the_repository(app, docname, source):
-    """Let links out of this folder, which serve who reads it in a checkout, lead to the repository."""
+    """Lead links out of this folder to the repository.
+
+    They serve who reads it in a checkout.
+    """
     source[0] = source[0].replace('](../', f']({repository()}/blob/main/')
 
 
 def leave_out(app, what, name, member, skip, options):
-    """Leave out fields of named tuples, which the record's docstring tells, and errors told elsewhere.
+    """Leave out fields of named tuples, which the record tells, and errors told elsewhere.
 
     An error that a package passes on would have two pages, which Sphinx refuses.
     """
@@ -99,7 +105,7 @@ def leave_out(app, what, name, member, skip, options):
 
 
 def as_written(app, what, name, thing, options, lines):
-    """Let drawings in docstrings be literal, and |u| be the size of u, where reST means something else."""
+    """Let drawings in docstrings be literal, and |u| the size of u; reST means something else."""
     literal, wanted = False, []
     lines[:] = [re.sub(r'(?<!`)`(\w+)`s\b', r'``\1``\\ s', line) for line in lines]  # `Element`s
     for before, line in zip(['', *lines], lines):

@@ -12,6 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Golf as a physics simulation on ROS 2: strike a ball with one message, watch it fly, bounce and roll."""
+"""Golf as a physics simulation on ROS 2.
+
+Strike a ball with one message, and watch it fly, bounce and roll.
+"""
 
 __version__ = '0.2.0'

@@ -24,7 +24,7 @@ APT = {
 }
 
 
-def how_to_get(extra, *libraries):
+def how_to_get(extra: str, *libraries: str) -> str:
     """Ways to install `libraries`, all of which the pip extra `extra` of this package brings."""
     by_pip = f"pip install 'golf_sim_ros[{extra}]'"
     if not APT.keys() >= set(libraries):

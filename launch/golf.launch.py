@@ -12,14 +12,20 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The simulator, the wind and, if wanted, RViz: ``ros2 launch golf_sim_ros golf.launch.py rviz:=true``.
+"""The simulator, the wind and, if wanted, RViz.
+
+``ros2 launch golf_sim_ros golf.launch.py rviz:=true`` starts them.
 
 An argument that is left out is not passed to the nodes, so it never overrides a params file.
 """
 
 from pathlib import Path
+import tempfile
 from typing import List
 
+from golf_sim_ros.course import CourseError, load_course
+from golf_sim_ros.drawing.rviz_view import rviz_view
+from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.conditions import evaluate_condition_expression, InvalidConditionExpressionError
 from launch.substitutions import SubstitutionFailure, TextSubstitution
@@ -28,8 +34,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import ExecutableInPackage, FindPackageShare
 import yaml
 
-from launch import LaunchDescription
-
+DEFAULT_COURSE = 'golf_without_friends'  # the simulator's
 # Arguments that are parameters of the simulator; their defaults are in config/sim.yaml.
 TEXTS = {
     'course': 'name of a shipped course, or path of a course file',
@@ -102,11 +107,11 @@ def nodes(context):
 
 
 def simulator(given, common):
-    """The node `golf_sim`; when it ends, all do."""
+    """Describe the node `golf_sim`; when it ends, all do."""
     parameters = {}
     for name in (*TEXTS, *LISTS, *NUMBERS, 'publish_clock'):
         if given[name]:
-            # None: as YAML reads it
+            # a number is read as YAML has it
             kind = str if name in TEXTS else List[str] if name in LISTS else None
             value = (
                 listed(name, given[name]) if name in LISTS else TextSubstitution(text=given[name])
@@ -124,7 +129,7 @@ def simulator(given, common):
 
 
 def wind(context, given, common):
-    """The node `wind_generator`."""
+    """Describe the node `wind_generator`."""
     files = params_files(given, 'params_file', 'wind_params', 'wind_params_file')
     return Node(
         package='golf_sim_ros',
@@ -137,14 +142,14 @@ def wind(context, given, common):
 
 
 def rviz(context, given, common):
-    """RViz with its view of the game; RuntimeError where it is not installed."""
+    """Describe RViz with its view of the game; RuntimeError where it is not installed."""
     try:
         ExecutableInPackage(package='rviz2', executable='rviz2').perform(context)
     except (LookupError, SubstitutionFailure):  # no package, no program in it
         raise RuntimeError(
             f'rviz:={given["rviz"]} needs the package rviz2: nothing is started'
         ) from None
-    view = Path(FindPackageShare('golf_sim_ros').perform(context), 'rviz', 'golf.rviz')
+    view = view_on(FindPackageShare('golf_sim_ros').perform(context), given['course'])
     return Node(
         package='rviz2',
         executable='rviz2',
@@ -152,6 +157,19 @@ def rviz(context, given, common):
         parameters=[follow_clock(context, given)],
         **common,
     )
+
+
+def view_on(share, name):
+    """Path of RViz's view, from behind the tee of the course of that name along its hole."""
+    view = Path(share, 'rviz', 'golf.rviz')
+    try:
+        made = rviz_view(view.read_text(encoding='utf-8'), load_course(name or DEFAULT_COURSE))
+    except CourseError:  # the simulator will say what is wrong with it
+        return view
+    file = tempfile.NamedTemporaryFile('w', prefix='golf_', suffix='.rviz', delete=False)
+    with file:
+        file.write(made)
+    return Path(file.name)
 
 
 def follow_clock(context, given):

@@ -15,8 +15,7 @@
 """What theory says: closed forms and independent equations, none of them taken from the package.
 
 A solid sphere has k = I / (m r^2) = 2/5. In formulas of contact, `spin` is the speed r w that the
-surface of the ball has by its spin: positive as in rolling forward, so a rolling ball has v =
-spin.
+surface of the ball has by its spin: positive as in rolling forward; in rolling v = spin.
 """
 
 from math import atan, cos, cosh, exp, expm1, log, log1p, pi, sin, sqrt, tanh
@@ -31,7 +30,7 @@ K = 0.4  # of a uniform sphere
 
 
 def vacuum_flight(speed, angle):
-    """Range, height and time over level ground: v^2 sin 2a / g, (v sin a)^2 / 2g, 2 v sin a / g."""
+    """Range, height and time over level ground: v^2 sin 2a / g, (v sin a)^2 / 2g, 2v sin a / g."""
     up = speed * sin(angle)
     return speed * speed * sin(2 * angle) / G, up * up / (2 * G), 2 * up / G
 
@@ -74,34 +73,34 @@ def quadratic_coast(speed, rate, time):
 
 
 def spin_after(spin, path):
-    """Spin left after a path of that length in air of 1.18 kg/m^3: d ln w / ds = -2e-5 / r (Smits, Smith)."""
+    """Spin left after a path of that length in air of 1.18 kg/m^3.
+
+    d ln w / ds = -2e-5 / r (Smits, Smith).
+    """
     return spin * exp(-2e-5 * path / RADIUS)
 
 
 def drag_coefficient(s, re):
     """Drag coefficient by spin ratio and Reynolds number: a fit, its numbers the package's own."""
-    return (
-        0.11
-        + 0.1529 * re**2 / (re**2 + 1.564e5**2)
-        + 0.1591 * (1 + 4.198 / (1 + (re / 5.133e4) ** 4)) * s**2 / (s**2 + 0.1649**2)
-        + 0.5955 / (1 + (re / 5.519e4) ** 4) / (1 + (s / 0.05) ** 2)
-    )
+    spun = s**2 / (s**2 + 0.2114**2)
+    turbulent = 0.1319 + 0.1209 * re**2 / (re**2 + 1.672e5**2) + 0.2242 * spun
+    laminar = 0.4507 + 0.0682 * spun
+    part = 1 / (1 + (re / 6.531e4) ** 8)
+    return (1 - part) * turbulent + part * laminar
 
 
 def lift_coefficient(s, re):
     """Lift coefficient likewise."""
-    return s / sqrt(s**2 + 0.02**2) * 0.06887 * (
-        1 - 0.4528 / (1 + (re / 2.049e5) ** 4)
-    ) + 0.3455 * s / sqrt(s**2 + 0.2587**2)
+    return s / sqrt(s**2 + 0.02**2) * 0.07761 * (
+        1 - 0.4113 / (1 + (re / 1.267e5) ** 4)
+    ) + 0.3755 * s / sqrt(s**2 + 0.3335**2)
 
 
 def golf_ball_rates(density, viscosity):
-    """Right-hand side y' = f(t, y) of a golf ball's flight in still air.
+    """Right-hand side f(t, y) of a golf ball's flight in still air, y' = f.
 
-    Y is position, velocity, spin.
-
-    Drag against the velocity, lift along spin x velocity by the spin across the path, spin decay
-    after Smits and Smith 1994.
+    y is position, velocity, spin. Drag against the velocity, lift along spin x velocity by the
+    spin across the path, spin decay after Smits and Smith 1994.
     """
     push = density * pi * RADIUS * RADIUS / (2 * MASS)
     decay = 2e-5 * density / 1.18 / RADIUS
@@ -145,10 +144,10 @@ def height_after(height, e, bounces):
 
 
 def gripping_bounce(v, spin, ex):
-    """Velocity and spin after a bounce with grip: slip u = v - spin becomes -ex u, v + k spin is kept.
+    """Velocity and spin after a bounce with grip: slip u = v - spin becomes -ex u.
 
-    ex = 0 leaves rolling, 5/7 v + 2/7 spin; ex = 1 is Garwin's superball (Am. J. Phys. 37 (1969)
-    88).
+    v + k spin is kept. ex = 0 leaves rolling, 5/7 v + 2/7 spin; ex = 1 is Garwin's superball (Am.
+    J. Phys. 37 (1969) 88).
     """
     return (
         ((1 - K * ex) * v + K * (1 + ex) * spin) / (1 + K),
@@ -157,7 +156,7 @@ def gripping_bounce(v, spin, ex):
 
 
 def slipping_bounce(v, spin, mu, e, approach):
-    """The same when the friction mu (1 + e) vn is too weak to stop the slip (Coulomb)."""
+    """Return the same when the friction mu (1 + e) vn is too weak to stop the slip (Coulomb)."""
     loss = mu * (1 + e) * approach * (1 if v > spin else -1)
     return v - loss, spin + loss / K
 
@@ -189,7 +188,9 @@ def stimp_distance(feet):
 
 
 def break_of_putt(side, decel, way, left):
-    """Sideways deviation of a putt after `way`, with `left` still to go, by a small `side` acceleration.
+    """Sideways deviation of a putt after `way`, with `left` still to go, by a `side` acceleration.
+
+    The acceleration is small.
 
     Friction acts along the velocity: y'' = B - (a / v) y'. With v^2 = 2 a (distance left) this
     integrates to B/a (D/2 - R/2 ln((D + R) / R)).
@@ -198,7 +199,9 @@ def break_of_putt(side, decel, way, left):
 
 
 def sliding_ball_rates(mu, tilt):
-    """y' = f(t, y) of a ball sliding on a plane that falls by the angle `tilt` towards +x.
+    """Right-hand side f(t, y) of a ball sliding on a plane that falls by `tilt` towards +x.
+
+    `tilt` is an angle; y' = f.
 
     y is (x, y, u, v, p, q): place and velocity along the plane and the spin's components there,
     x down the slope. Coulomb friction mu g cos(tilt) acts against the slip.
@@ -216,7 +219,10 @@ def sliding_ball_rates(mu, tilt):
 
 
 def rolling_ball_rates(resistance, tilt):
-    """y' = f(t, y) of a ball rolling on such a plane, y = (x, y, u, v), braked by resistance times g cos."""
+    """Right-hand side f(t, y) of a ball rolling on such a plane.
+
+    y' = f, y = (x, y, u, v); the ball is braked by resistance times g cos.
+    """
 
     def rates(_, y):
         u, v = y[2:]

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The documentation: all pages are on the way through it, links lead somewhere, Sphinx builds it."""
+"""The documentation: all pages are on the way through it, links lead on, Sphinx builds it."""
 
 import os
 from pathlib import Path

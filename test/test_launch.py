@@ -44,7 +44,7 @@ WANTED = {
 
 
 def description():
-    """What the launch file describes."""
+    """Load what the launch file describes."""
     from launch.launch_description_sources import get_launch_description_from_python_launch_file
 
     return get_launch_description_from_python_launch_file(str(ROOT / 'launch' / 'golf.launch.py'))

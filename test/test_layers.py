@@ -101,6 +101,7 @@ OF_EACH_KIND = {
     'idle',
     'dormant',
     'INSTEAD_OF',
+    'LIVE',
     'METHOD',
     'TABLE',
     'SHAPES',

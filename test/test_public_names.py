@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Names that users have in their scripts, launch files and courses: they stay, wherever the code moves."""
+"""Names that users have in scripts, launch files and courses stay, wherever the code moves."""
 
 import ast
 from importlib import import_module
@@ -22,120 +22,43 @@ from golf_sim_ros.physics import ACCURACY, EFFECTS, METHODS
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
+# fmt: off
 COMMANDS = {
-    'sim_node',
-    'wind_node',
-    'shoot',
-    'record_play',
-    'resimulate',
-    'plot_play',
-    'accuracy_study',
+    'sim_node', 'wind_node', 'shoot', 'record_play', 'resimulate', 'plot_play', 'accuracy_study',
+    'compare_shots', 'view_play', 'play_hole',
     'compile_physics',
 }
 SIM_PARAMETERS = {
-    'course',
-    'rate',
-    'publish_rate',
-    'real_time_factor',
-    'accuracy',
-    'effects',
-    'balls',
-    'frame_id',
-    'publish_clock',
-    'engine',
+    'course', 'rate', 'publish_rate', 'real_time_factor', 'accuracy', 'effects', 'balls',
+    'frame_id', 'publish_tf', 'parent_frame', 'publish_clock', 'engine',
 }
 WIND_PARAMETERS = {
-    'speed',
-    'speed_spread',
-    'direction',
-    'direction_spread',
-    'interval',
-    'ramp',
-    'turbulence',
-    'seed',
-    'publish_rate',
-    'frame_id',
+    'speed', 'speed_spread', 'direction', 'direction_spread', 'interval', 'ramp', 'turbulence',
+    'seed', 'publish_rate', 'frame_id',
 }
 NAMES_OF_EFFECTS = {
-    'ball_ball',
-    'bearman_harvey_1976',
-    'drag',
-    'ferguson_drag',
-    'ferguson_lift',
-    'foliage',
-    'gravity',
-    'linear_drag',
-    'magnus',
-    'naruo_2004',
-    'penner_2002',
-    'smits_smith_1994',
-    'spin_decay',
-    'turf',
-    'water',
-    'wind',
+    'ball_ball', 'bearman_harvey_1976', 'drag', 'ferguson_drag', 'ferguson_lift', 'foliage',
+    'gravity', 'linear_drag', 'magnus', 'naruo_2004', 'penner_2002', 'smits_smith_1994',
+    'spin_decay', 'turf', 'water', 'wind',
 }
 TOPICS = {
-    'shot',
-    'place',
-    'wind',
-    'pose',
-    'twist',
-    'contact',
-    'collisions',
-    'shot/result',
-    'journal',
-    'course/markers',
-    'play/markers',
-    'heartbeat',
-    '/diagnostics',
-    '/clock',
+    'shot', 'place', 'wind', 'pose', 'twist', 'contact', 'collisions', 'shot/result', 'journal',
+    'course/markers', 'play/markers', 'heartbeat', '/diagnostics', '/clock',
 }
 IMPORTS = {
     'golf_sim_ros.course': ('load_course', 'load_round', 'shipped_courses', 'CourseError'),
     'golf_sim_ros.bag': ('read_bag', 'BagError'),
     'golf_sim_ros.wind': ('Gusts', 'GustSettings'),
     'golf_sim_ros.physics': (
-        'Air',
-        'Ball',
-        'BallState',
-        'Collision',
-        'Course',
-        'Cylinder',
-        'EFFECTS',
-        'ENGINES',
-        'EngineUnavailable',
-        'Heightmap',
-        'LogProfile',
-        'Material',
-        'Mesh',
-        'NoPlace',
-        'PENNER',
-        'Patch',
-        'Phase',
-        'Plane',
-        'Play',
-        'PowerProfile',
-        'Preset',
-        'Rejected',
-        'Restitution',
-        'Result',
-        'Shot',
-        'Sphere',
-        'UniformProfile',
-        'Water',
-        'World',
-        'Zone',
-        'check_hole',
-        'check_tee',
-        'cycles_now',
-        'ground_height',
-        'register_effect',
-        'rolling_resistance_of_stimp',
-        'simulate',
-        'simulate_many',
-        'standard_atmosphere',
+        'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'ENGINES',
+        'EngineUnavailable', 'Heightmap', 'LogProfile', 'Material', 'Mesh', 'NoPlace', 'PENNER',
+        'Patch', 'Phase', 'Plane', 'Play', 'PowerProfile', 'Preset', 'Rejected', 'Restitution',
+        'Result', 'Shot', 'Sphere', 'UniformProfile', 'Water', 'World', 'Zone', 'check_hole',
+        'check_tee', 'cycles_now', 'ground_height', 'register_effect',
+        'rolling_resistance_of_stimp', 'simulate', 'simulate_many', 'standard_atmosphere',
     ),
 }
+# fmt: on
 
 
 def test_commands_are_called_as_before():

@@ -52,6 +52,7 @@ ROS = (
     'rosgraph_msgs',
 )
 LAUNCHING = ('launch', 'launch_ros')  # no wheels
+WITHOUT_WHEELS = ('tf2_msgs',)  # imported where it is installed
 STARTED = ('rviz2',)  # by the launch file, not imported
 
 # What apt has not: where it is imported, and only when it is needed; the extra of pip that brings
@@ -70,7 +71,11 @@ BY_PIP = {
     ),
     'trimesh': ('mesh', 'trimesh', ('golf_sim_ros/course/mesh_file.py',)),
     'rasterio': ('terrain', 'rasterio', ('golf_sim_ros/course/terrain_file.py',)),
+    'nicegui': ('view', 'nicegui', ('golf_sim_ros/view/page.py', 'golf_sim_ros/view/server.py')),
+    'fastapi': ('view', 'nicegui', ('golf_sim_ros/view/server.py',)),  # NiceGUI is made of it
 }
+# Modules that are imported only when what they need is asked for.
+LATE = ('golf_sim_ros/physics/jit/', 'golf_sim_ros/view/page.py', 'golf_sim_ros/view/server.py')
 # Every apt key here is one of rosdep's, for apt, in rosdistro's python.yaml, with no exception for
 # a release.
 NO_APT_KEY = ('python3-numba', 'python3-rosbags-pip', 'python3-trimesh-pip')
@@ -81,7 +86,7 @@ def name(path):
 
 
 def imports(path):
-    """(module's top-level name, whether the file cannot be imported without it), for each import."""
+    """Top-level name of each import, and whether the file cannot be imported without it."""
     found = set()
 
     def look(node, hard):
@@ -114,7 +119,7 @@ def manifest(kind):
 
 @pytest.fixture(scope='module')
 def setup():
-    """The arguments that setup.py calls setup() with."""
+    """Run setup.py: the arguments that setuptools gets."""
     with patch('setuptools.setup') as called, pytest.MonkeyPatch.context() as here:
         here.chdir(ROOT)
         runpy.run_path(str(ROOT / 'setup.py'))
@@ -127,7 +132,7 @@ def names(requirements):
 
 @pytest.mark.parametrize('path', PACKAGE, ids=name)
 def test_what_a_module_imports_is_known_here(path):
-    known = {*PYTHON, *ROS, *BY_PIP}
+    known = {*PYTHON, *ROS, *WITHOUT_WHEELS, *BY_PIP}
     assert not {module for module, _ in imports(path)} - known
 
 
@@ -166,7 +171,7 @@ def test_what_apt_has_not_is_imported_when_needed_and_only_where_it_is_told_how_
         name(path): hard for path in PACKAGE for found, hard in imports(path) if found == module
     }
     assert [place for place in importers if not place.startswith(places)] == []
-    assert not any(hard and 'physics/jit/' not in place for place, hard in importers.items())
+    assert not any(hard and not place.startswith(LATE) for place, hard in importers.items())
     assert wanted in names(setup['extras_require'][extra])
 
 
@@ -185,6 +190,9 @@ def test_the_manifest_asks_for_nothing_that_apt_has_not(kind):
         'cli.resimulate',
         'cli.plot_play',
         'cli.accuracy_study',
+        'cli.view_play',
+        'cli.play_hole',
+        'cli.compare_shots',
         'bag',
         'course',
         'physics',
@@ -199,7 +207,7 @@ def test_with_numpy_and_yaml_alone_it_imports(module):
 
 
 def without(missing, source):
-    """A Python that runs `source` where the modules `missing` are not installed."""
+    """Run `source` by a Python where the modules `missing` are not installed."""
     code = f'import sys; sys.modules.update(dict.fromkeys({sorted(missing)!r})); {source}'
     return subprocess.run(
         [sys.executable, '-W', 'ignore', '-c', code], cwd=ROOT, capture_output=True, text=True
@@ -228,6 +236,11 @@ def without(missing, source):
             'matplotlib',
             'from golf_sim_ros.cli.plot_play import main; sys.exit(main(["play"]))',
             ['apt install python3-matplotlib', "pip install 'golf_sim_ros[plot]'"],
+        ),
+        (
+            'nicegui',
+            'from golf_sim_ros.cli.play_hole import main; sys.exit(main([]))',
+            ["pip install 'golf_sim_ros[view]'", '--terminal'],
         ),
         *(
             (

@@ -32,12 +32,12 @@ SOURCES = [
 EXECUTABLES = sorted((ROOT / 'scripts').iterdir())
 PACKAGE = sorted((ROOT / 'golf_sim_ros').rglob('*.py'))
 PHYSICS = ROOT / 'golf_sim_ros' / 'physics'
-# What users call of the physics, its modules right in the folder, may take more parameters: each
-# by its name.
+# What users call of the physics, its modules right in the folder, may take more parameters, by
+# name.
 OF_FEW_PARAMETERS = [path for path in SOURCES if path.parent != PHYSICS]
 MOST_BRANCHES, MOST_PARAMETERS = 15, 6
 # As ament_copyright reads it.
-HEADER = '''# Copyright 2026 golf_sim_ros maintainers
+HEADER = """# Copyright 2026 golf_sim_ros maintainers
 #
 # Licensed under the Apache License, Version 2.0 (the "License");
 # you may not use this file except in compliance with the License.
@@ -51,7 +51,7 @@ HEADER = '''# Copyright 2026 golf_sim_ros maintainers
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-'''
+"""
 
 
 def name(path):
@@ -126,7 +126,10 @@ def test_all_that_is_public_has_a_docstring_with_a_line_that_stands_alone(path):
 
 
 def public(tree, inside=''):
-    """Name and node of the module-level functions and classes of `tree` and their methods, if public."""
+    """Name and node of the public functions and classes of `tree`, and of their methods.
+
+    Functions and classes are those of the module's level.
+    """
     for node in tree.body:
         if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)):
             if not node.name.startswith('_'):
@@ -136,7 +139,7 @@ def public(tree, inside=''):
 
 
 def well_described(node):
-    """Whether the docstring of `node` is one line, or a first line and an empty one before the rest.
+    """Whether the docstring of `node` is one line, or one and an empty line before the rest.
 
     A property may leave it out, and a callback named after what it waits for: their names say it.
     """

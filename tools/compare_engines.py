@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Random shots on every shipped course by both engines: how far apart do they end?
+"""Random shots on every shipped course by both engines, and how far apart they end.
 
 Each shot has a wind of its own; every fourth is played with a second ball that is struck at the
 same time.
@@ -62,7 +62,7 @@ def parser():
 
 
 def compared(job):
-    """What came of one shot by both engines, and how far apart [m] its balls came to rest."""
+    """Play one shot by both engines: what came of it, how far apart [m] its balls came to rest."""
     course, seed = job
     plain, machine = (
         played(load_course(course), seed, engine) for engine in ('python', 'compiled')

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Draws docs/physics.png and prints the tables of docs/physics.md: the laws against what was measured.
+"""Draw docs/physics.png and print the tables of docs/physics.md: laws against measurements.
 
 .venv/bin/python tools/draw_physics.py
 """
@@ -20,7 +20,7 @@
 from math import log
 from pathlib import Path
 
-from fit_aerodynamics import column, DEGREE, drag_and_lift, MPH, rows, RPM, TABLES, YARD
+from fit_aerodynamics import column, DEGREE, drag_and_lift, MPH, rows, RPM, YARD
 from golf_sim_ros.course.material_file import shipped
 from golf_sim_ros.drawing.style import bare, colors
 from golf_sim_ros.physics import (
@@ -37,20 +37,13 @@ from golf_sim_ros.physics import (
 from golf_sim_ros.physics.effects.drag import DragLaw
 from golf_sim_ros.physics.effects.magnus import LiftLaw
 import matplotlib
+from matplotlib import pyplot as plt
 import numpy as np
 
 matplotlib.use('Agg')
-from matplotlib import pyplot as plt  # noqa: E402
 
 DOCS = Path(__file__).parents[1] / 'docs'
-LAWS = {
-    'fitted': ('gravity', 'drag', 'magnus', 'spin_decay'),
-    'Ferguson 2022': ('gravity', 'ferguson_drag', 'ferguson_lift', 'spin_decay'),
-    'Smits, Smith 1994': ('gravity', 'smits_smith_1994', 'spin_decay'),
-    'Naruo 2004': ('gravity', 'naruo_2004', 'spin_decay'),
-    'Bearman, Harvey 1976': ('gravity', 'bearman_harvey_1976', 'spin_decay'),
-    'linear': ('gravity', 'linear_drag', 'magnus', 'spin_decay'),
-}
+PGA = ('trackman_pga_2010s.csv', 'trackman_pga_2023.csv')
 RUNS = (
     ('driver, firm fairway', 'firm_fairway', 167, 10.9, 2686),
     ('driver, fairway', 'fairway', 167, 10.9, 2686),
@@ -83,39 +76,19 @@ def of_table(name):
     return strikes(*(column(table, key) for key in ('ball_speed_mph', 'launch_deg', 'spin_rpm')))
 
 
-def print_errors():
-    """Mean and greatest errors of each set of laws against each table."""
-    print('| table | laws | carry [yd]: mean, worst | apex [yd] | landing angle [deg] |')
-    print('|---|---|---|---|---|')
-    for name in TABLES:
-        table = rows(name)
-        told = [column(table, key) for key in ('carry_yd', 'max_height_yd', 'land_angle_deg')]
-        for law, effects in LAWS.items():
-            shots = simulate_many(ground('fairway'), *of_table(name), effects=effects)
-            found = shots['carry'] / YARD, shots['apex'] / YARD, shots['landing_angle'] / DEGREE
-            cells = [
-                f'{np.abs(f - t).mean():.2f}, {np.abs(f - t).max():.2f}'
-                if np.isfinite(t).all()
-                else ''
-                for f, t in zip(found, told)
-            ]
-            print(f'| {name} | {law} | {" | ".join(cells)} |')
-
-
 def print_runs():
     """How far shots run out."""
     print('| shot | carry [yd] | from there [yd] |\n|---|---|---|')
     for label, material, *shot in RUNS:
         (end,) = simulate_many(ground(material), *strikes(*shot))
-        print(
-            f'| {label} | {end["carry"] / YARD:.1f} | {(end["position"][0] - end["carry"]) / YARD:.1f} |'
-        )
+        rolled = end['position'][0] - end['carry']
+        print(f'| {label} | {end["carry"] / YARD:.1f} | {rolled / YARD:.1f} |')
 
 
 def draw_flights(axes):
-    """Every club of the tour's table.
+    """Fly every club of the tour's table.
 
-    A dot where the table lands it, a tick at the table's apex.
+    A dot is where the table lands it, a tick at the table's apex.
     """
     table = rows('trackman_pga_2023.csv')
     velocities, spins = of_table('trackman_pga_2023.csv')
@@ -176,7 +149,10 @@ def draw_bounce(axes):
 
 
 def draw_putt(axes):
-    """A putt of 10 ft across a slope of 2 %, and the closed form of its break for a small slope."""
+    """Play a putt of 10 ft across a slope of 2 %; and the closed form of its break.
+
+    The form holds for a small slope.
+    """
     tilt, way, left = 0.02, 3.048, 0.45
     course = ground('green', (np.sin(np.arctan(tilt)), 0, np.cos(np.arctan(tilt))))
     brake = shipped()[0]['green']['rolling_resistance'] * 9.80665
@@ -196,8 +172,8 @@ def draw_putt(axes):
 
 
 def draw_errors(axes):
-    """The carry's error, club by club, of both of the tour's tables."""
-    for name in TABLES[:2]:
+    """Carry's error, club by club, of both of the tour's tables."""
+    for name in PGA:
         carry = simulate_many(ground('fairway'), *of_table(name))['carry'] / YARD
         axes.plot(
             carry - column(rows(name), 'carry_yd'), 'o-', ms=4, label=name[13:-4].replace('_', ' ')
@@ -211,7 +187,10 @@ def draw_errors(axes):
 
 
 def fastest_holed(aside, bounciness):
-    """Lowest speed [m/s] at the rim that escapes a hole in a level green, `aside` [m] off its centre."""
+    """Lowest speed [m/s] at the rim that escapes a hole in a level green.
+
+    The ball passes `aside` [m] of its centre.
+    """
     green = Material(name='green', **shipped()[0]['green'])._replace(
         restitution=Restitution(bounciness)
     )
@@ -249,8 +228,6 @@ def main():
     draw_errors(axes[0, 3])
     draw_capture(axes[1, 3])
     figure.savefig(DOCS / 'physics.png', dpi=90)
-    print_errors()
-    print()
     print_runs()
 
 

@@ -125,8 +125,9 @@ def scenes(count, seed):
     worker.pipe.send(None)
     worker.process.join(10.0)
     print(
-        f'{count} scenes from seed {seed} in {time.monotonic() - began:.0f} s: {refused[False]} played, '
-        f'{refused[True]} refused by name; shots: {dict(told)}; slowest call {slowest:.2f} s; '
+        f'{count} scenes from seed {seed} in {time.monotonic() - began:.0f} s: '
+        f'{refused[False]} played, {refused[True]} refused by name; '
+        f'shots: {dict(told)}; slowest call {slowest:.2f} s; '
         f'memory {start:.0f} MB after a half, {most:.0f} MB at most',
         flush=True,
     )

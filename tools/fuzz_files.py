@@ -48,9 +48,10 @@ def main(args=None):
         found = run(kind, options)
         faults += len(found['faults'])
         print(
-            f'{kind}: {found["read"]} read, {found["refused"]} refused, {len(found["faults"])} faults; '
-            f'seed {options.seed}, numbers {options.first} to {options.first + options.count - 1}; at most '
-            f'{found["time"]:.2f} s and {found["memory"] / 1e6:.0f} MB',
+            f'{kind}: {found["read"]} read, {found["refused"]} refused, '
+            f'{len(found["faults"])} faults; seed {options.seed}, '
+            f'numbers {options.first} to {options.first + options.count - 1}; '
+            f'at most {found["time"]:.2f} s and {found["memory"] / 1e6:.0f} MB',
             flush=True,
         )
         for number, fault in found['faults']:
@@ -77,7 +78,7 @@ def parser():
 
 
 def run(kind, options):
-    """What came of the cases of a kind: counts, greatest time and memory, faults with their numbers."""
+    """Read the cases of a kind: counts, greatest time and memory, faults with their numbers."""
     found = {'read': 0, 'refused': 0, 'faults': [], 'time': 0.0, 'memory': 0}
     first, last = options.first, options.first + options.count
     while first < last:
@@ -97,7 +98,7 @@ def run(kind, options):
 
 
 def cases(kind, first, last, options):
-    """What a process of its own says of each case, until it ends."""
+    """Start a process that reads cases: what it says of each, until it ends."""
     command = [
         sys.executable,
         str(HERE),

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Malformed and extreme messages, services and parameters over DDS at a sim, and a good shot after them."""
+"""Malformed and extreme messages, services, parameters over DDS at a sim; then a good shot."""
 
 from collections import deque
 from contextlib import contextmanager, suppress
@@ -26,11 +26,10 @@ import sys
 import tempfile
 import time
 
-import numpy as np
-
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test' / 'nodes')]
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped  # noqa: E402
+import numpy as np  # noqa: E402
 from processes import Golfer, parameters, Process, READY, wait_until  # noqa: E402
 import pytest  # noqa: E402
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue  # noqa: E402
@@ -62,7 +61,7 @@ EXACT = (
 
 @contextmanager
 def domain():
-    """A ROS domain of our own, on this machine only."""
+    """Claim a ROS domain of our own, on this machine only."""
     with socket.socket() as claim, tempfile.TemporaryDirectory() as log:
         number = next(n for n in range(1, 102) if is_free(claim, n))
         os.environ.update(
@@ -110,7 +109,7 @@ class Attacker(Golfer):
             assert service.wait_for_service(60.0)
 
     def ask(self, service, request):
-        """The answer of a service, within HANGS."""
+        """Wait for the answer of a service, within HANGS."""
         future = service.call_async(request)
         wait_until(future.done, f'{service.srv_name} answered', HANGS)
         return future.result()
@@ -166,7 +165,9 @@ class Attacker(Golfer):
             wind = self.rng.normal(size=3)
             self.send('wind', (99.9 * wind / np.linalg.norm(wind)).tolist())
         elif what == 6:
-            self.set('accuracy', str(self.rng.choice(['sketch', 'standard', 'reference'])))
+            self.set_parameter(
+                'accuracy', str(self.rng.choice(['sketch', 'standard', 'reference']))
+            )
         else:
             self.ask(self.resets, Trigger.Request())
 
@@ -181,12 +182,13 @@ class Attacker(Golfer):
             else [message.linear, message.angular]
         )
         for k, part in enumerate(parts):
-            part.x, part.y, part.z = numbers[3 * k : 3 * k + 3]
+            first, last = 3 * k, 3 * k + 3
+            part.x, part.y, part.z = numbers[first:last]
         if hasattr(message, 'header'):
             message.header.frame_id = frame
         self.ways[topic].publish(message)
 
-    def set(self, name, value):
+    def set_parameter(self, name, value):
         """Set a parameter."""
         kind = {str: 'string', float: 'double', int: 'integer', bool: 'bool'}[type(value)]
         told = ParameterValue(
@@ -205,12 +207,12 @@ class Attacker(Golfer):
             if name == 'real_time_factor'
             else ['x' * 3000, nan, -5, True, '']
         )
-        self.set(name, bad[self.rng.integers(len(bad))])
+        self.set_parameter(name, bad[self.rng.integers(len(bad))])
 
     def good_shot(self):
         """Values of the good shot that are exact, from the tee and in still air."""
         self.barrier()
-        self.set('accuracy', 'standard')
+        self.set_parameter('accuracy', 'standard')
         self.send('wind', [0.0, 0.0, 0.0])
         self.barrier()
         self.ask(self.resets, Trigger.Request())
@@ -289,13 +291,15 @@ def attacked(sim, attacker, count, seed):
             f'{shots} strikes, {len(numbers)} results, {len(set(numbers))} different ones'
         )
     if 'Traceback' in sim.output:
-        troubles.append('a traceback: ' + sim.output[sim.output.index('Traceback') :][:900])
+        begin = sim.output.index('Traceback')
+        troubles.append('a traceback: ' + sim.output[begin:][:900])
     if grown > MEMORY:
         troubles.append(f'the sim grew by {grown:.0f} MB')
     took = time.monotonic() - began
     print(
         f'{count} malformed and {count} extreme messages of seed {seed} in {took:.0f} s: '
-        f'{shots} strikes, {len(numbers)} results; the sim grew by {grown:.1f} MB in the second half',
+        f'{shots} strikes, {len(numbers)} results; '
+        f'the sim grew by {grown:.1f} MB in the second half',
         flush=True,
     )
     return troubles

@@ -16,85 +16,23 @@
 
 from datetime import date
 
+# fmt: off
 TOKENS = [
-    b'\0',
-    b'\n',
-    b'\r\n',
-    b'\t',
-    b' ',
-    b'\\\n',
-    b'#',
-    b'-',
-    b'.',
-    b'e',
-    b'1e999',
-    b'nan',
-    b'inf',
-    b'-1',
-    b'0',
-    b'99999999999999999999',
-    b'4294967295',
-    b'2147483648',
-    b'\xff\xfe',
-    b'\xef\xbb\xbf',
-    b'\x85',
-    b'\xe2\x80\xa8',
-    b'/',
-    b'//',
-    b'"',
-    b"'",
-    b'{',
-    b'}',
-    b'[',
-    b']',
-    b',',
-    b':',
-    b'\xff' * 4,
-    b'\0' * 8,
-    b'1' * 400,
-    b'9' * 5000,
+    b'\0', b'\n', b'\r\n', b'\t', b' ', b'\\\n', b'#', b'-', b'.', b'e', b'1e999', b'nan', b'inf',
+    b'-1', b'0', b'99999999999999999999', b'4294967295', b'2147483648', b'\xff\xfe',
+    b'\xef\xbb\xbf', b'\x85', b'\xe2\x80\xa8', b'/', b'//', b'"', b"'", b'{', b'}', b'[', b']',
+    b',', b':',
+    b'\xff' * 4, b'\0' * 8, b'1' * 400, b'9' * 5000,
 ]
 YAML_TOKENS = [
-    b'&a ',
-    b'*a',
-    b'<<: *a',
-    b'!!bool x',
-    b'!!int ',
-    b'!!float ',
-    b'!!timestamp x',
-    b'!!binary x',
-    b'!!set ',
-    b'!!omap ',
-    b'!!null x',
-    b'!!str ',
-    b'!!python/name:os.system ',
-    b'? ',
-    b'| ',
-    b'> ',
-    b'---\n',
-    b'...\n',
-    b'%YAML 1.1\n',
-    b'[' * 300,
-    b'{a: ' * 50,
-    b':'.join([b'1'] * 3000),
-    b'0x' + b'f' * 3000,
-    b'1' * 9999 + b'e',
-    b'~nobody_at_all/x.stl',
-    b'2026-13-45',
-    b'0b',
-    b'0o9',
-    b'.inf',
-    b'.nan',
-    b'yes',
-    b'1:30',
-    b'\xc2\x85',
-    b'!<tag:yaml.org,2002:int> x',
-    b'- ',
-    b'&b [*b]',
-    b'"\\0"',
-    b'"\\uD800"',
-    b"'\\n'",
+    b'&a ', b'*a', b'<<: *a', b'!!bool x', b'!!int ', b'!!float ', b'!!timestamp x', b'!!binary x',
+    b'!!set ', b'!!omap ', b'!!null x', b'!!str ', b'!!python/name:os.system ', b'? ', b'| ',
+    b'> ', b'---\n', b'...\n', b'%YAML 1.1\n', b'[' * 300, b'{a: ' * 50, b':'.join([b'1'] * 3000),
+    b'0x' + b'f' * 3000, b'1' * 9999 + b'e', b'~nobody_at_all/x.stl', b'2026-13-45', b'0b', b'0o9',
+    b'.inf', b'.nan', b'yes', b'1:30', b'\xc2\x85', b'!<tag:yaml.org,2002:int> x', b'- ',
+    b'&b [*b]', b'"\\0"', b'"\\uD800"', b"'\\n'",
 ]
+# fmt: on
 
 
 def bytes_mutated(rng, raw, tokens=TOKENS):
@@ -102,20 +40,24 @@ def bytes_mutated(rng, raw, tokens=TOKENS):
     raw = bytearray(raw)
     for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
         at, size = rng.randrange(len(raw) + 1), rng.choice((1, 1, 2, 4, 8, rng.randrange(1, 200)))
-        way = rng.randrange(26) % 8
+        end, way = at + size, rng.randrange(26) % 8
         if way == 0 and raw:
             raw[at % len(raw)] ^= 1 << rng.randrange(8)
         elif way == 1 or way == 7:
-            raw[at : at + min(size, 8)] = bytes(rng.randrange(256) for _ in range(min(size, 8)))
+            end = at + min(size, 8)
+            raw[at:end] = bytes(rng.randrange(256) for _ in range(end - at))
         elif way == 2:
-            del raw[at : at + size]
+            del raw[at:end]
         elif way == 3:
-            raw[at:at] = raw[at : at + size] * rng.choice((1, 2, 50))
+            raw[at:at] = raw[at:end] * rng.choice((1, 2, 50))
         elif way == 4:
-            raw[at : at + rng.choice((0, size))] = rng.choice(tokens)
+            token = rng.choice(tokens)
+            end = at + rng.choice((0, size))
+            raw[at:end] = token
         elif way == 5:
             other = rng.randrange(len(raw) + 1)
-            raw[at : at + size] = raw[other : other + size]
+            other_end = other + size
+            raw[at:end] = raw[other:other_end]
         elif rng.random() < 0.2:
             del raw[at:]
     return bytes(raw)
@@ -187,7 +129,7 @@ def places(content, way=()):
 
 
 def at(content, way):
-    """What is at a place."""
+    """Return what is at a place."""
     for key in way:
         content = content[key]
     return content
@@ -207,14 +149,15 @@ def changed(rng, content, way, value):
     elif how == 1 and isinstance(copy, dict):
         copy[rng.choice(('x', 'format', 'cut', 'shape', 'material', 'like', 3))] = copy.pop(way[0])
     elif how == 2 and isinstance(copy, list):
-        copy[way[0] : way[0]] = [copy[way[0]]] * rng.choice((1, 3, 300))
+        index = way[0]
+        copy[index:index] = [copy[index]] * rng.choice((1, 3, 300))
     else:
         copy[way[0]] = value
     return copy
 
 
 def structure_mutated(rng, content):
-    """`content` with a few places changed: to junk, to what is elsewhere, or to a list of itself."""
+    """`content` with a few places changed: to junk, to what is elsewhere, or a list of itself."""
     for _ in range(rng.choice((1, 1, 1, 1, 2, 6))):
         ways = list(places(content))
         way = rng.choice(ways)

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Reads the mutated files of fuzz_files.py in a process of its own, and says of each what came of it."""
+"""Reads the mutated files of fuzz_files.py in a process of its own; says what came of each."""
 
 import json
 from pathlib import Path
@@ -61,7 +61,7 @@ def stop(*_):
 
 
 def outcome(make, rng, place, kind):
-    """Make and read one case: whether it was read, what is wrong with how it ended, time and memory."""
+    """Make and read one case: whether it was read, what was wrong at the end, time and memory."""
     read, errors = make(rng, place)
     fault, said = '', None
     with warnings.catch_warnings(record=True) as warned:

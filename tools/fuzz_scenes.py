@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Random scenes of allowed numbers, and five shots in each: what a course file may say, at its edges too."""
+"""Random scenes of numbers that a course file may say, at its edges too; five shots in each."""
 
 import json
 from math import isfinite, pi
@@ -37,7 +37,7 @@ STANDING = (Phase.REST, Phase.HOLED, Phase.WATER, Phase.OUT)
 
 
 class Outcome(NamedTuple):
-    """What came of a scene: why it was refused, or how its shots ended, and its slowest call [s]."""
+    """What came of a scene: why it was refused, or how its shots ended; its slowest call [s]."""
 
     refused: str
     statuses: tuple
@@ -50,12 +50,12 @@ class Trouble(Exception):
 
 
 def log_uniform(rng, low, high):
-    """A number between `low` and `high`, as often of one size as of another."""
+    """Draw a number between `low` and `high`, as often of one size as of another."""
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
 def number(rng, low, high, *usual):
-    """A number from `low` to `high`: often an edge, often one of the `usual`, else any."""
+    """Draw a number from `low` to `high`: often an edge, often one of the `usual`, else any."""
     choice = rng.integers(4)
     if choice == 0:
         return float(rng.choice([low, high]))
@@ -163,7 +163,7 @@ def ground(rng, folder):
 
 
 def scene(rng, folder):
-    """Content of a course file in `folder`: a shipped course with other numbers, or other ground as well."""
+    """Content of a course file in `folder`: a shipped one with other numbers, or other ground."""
     shipped = shipped_courses()
     path = shipped[str(rng.choice(sorted(shipped)))]
     for file in path.parent.glob('*.[ns][pt][yl]'):
@@ -209,7 +209,7 @@ def obstacle(rng):
 
 
 def direction(rng):
-    """A random unit vector."""
+    """Draw a unit vector."""
     way = rng.normal(size=3)
     return way / np.linalg.norm(way)
 
@@ -298,7 +298,7 @@ def shot(world, rng, watch):
 
 
 def run(world, rate, watch):
-    """What happens until nothing moves, or until a reset after LONGEST."""
+    """Play until nothing moves, or until a reset after LONGEST: what happens."""
     events, tick, end = [], 1.0 / rate, world.time + LONGEST
     while world.moving and world.time < end:
         events += watch(world.advance, tick)

@@ -56,7 +56,7 @@ obstacles:
   - {shape: sphere, center: [60, 12, 9], radius: 2.5, material: leaf}
 water:
   - {polygon: [[90, 10], [120, 10], [120, 40]], level: -0.2, cut: [[[100, 12], [101, 12], [101, 13]]]}
-"""
+"""  # noqa: E501
 OBJ = b"""# a mesh
 v 0 0 0
 v 10 0 0.5 1 0 0
@@ -134,7 +134,7 @@ def courses():
 
 
 def stl(binary):
-    """A tetrahedron as STL."""
+    """Make a tetrahedron as STL."""
     corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], '<f4')
     faces = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
     if binary:
@@ -150,9 +150,10 @@ def stl(binary):
 
 
 def ply(form):
-    """A concave face and a triangle as PLY."""
+    """Make a concave face and a triangle as PLY."""
     head = (
-        f'ply\nformat {form} 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n'
+        f'ply\nformat {form} 1.0\nelement vertex 6\n'
+        'property float x\nproperty float y\nproperty float z\n'
         'element face 2\nproperty list uchar int vertex_indices\nend_header\n'
     ).encode()
     corners = np.array([(0, 0, 0), (10, 0, 0), (10, 4, 0), (4, 4, 0), (4, 10, 0), (0, 10, 0)])
@@ -174,7 +175,7 @@ def ply(form):
 
 
 def glb():
-    """A part of a scene as GLB."""
+    """Make a part of a scene as GLB."""
     import trimesh
 
     scene = trimesh.Scene()
@@ -215,7 +216,7 @@ def meshes():
 
 
 def npy(heights):
-    """An array as .npy."""
+    """Make an array as .npy."""
     file = BytesIO()
     np.save(file, heights)
     return file.getvalue()

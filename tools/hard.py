@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Plays every hard case with every preset at ticks of 50, 250 and 1000 Hz, and writes docs/stability.md.
+"""Plays every hard case with every preset at 50, 250 and 1000 Hz; writes docs/stability.md.
 
 The cases are those of test/physics/hard_cases, which say what is expected; `make test` plays each
 once. With them come those of hard_scenes.py, and random shots at what nothing may pass: so many at
@@ -27,8 +27,6 @@ from math import inf
 from pathlib import Path
 import sys
 
-import yaml
-
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / 'test'), str(ROOT / 'test' / 'physics')]
 from golf_sim_ros.course import load_course  # noqa: E402
@@ -37,6 +35,7 @@ from golf_sim_ros.physics.engine.engines import prefer_compiled  # noqa: E402
 from hard_scenes import SCENES  # noqa: E402
 from nothing_passes import TARGETS  # noqa: E402
 from test_hard_cases import CASES, play, start  # noqa: E402
+import yaml  # noqa: E402
 
 BUILD = ROOT / 'build' / 'hard'
 RATES = (50, 250, 1000)  # Hz
@@ -44,13 +43,14 @@ SHOTS = 100_000  # at each target, at each rate, with each preset
 HEAD = """\
 # Hard cases
 
-Made by `make hard`: every case of `test/physics/hard_cases/`, with every preset, at ticks of 50, 250 and
-1000 Hz. In all of them the ball must stay finite, out of the ground to 2e-6 m, gain no energy in still air
-beyond 1e-9 of it a tick, and come to its end. A cell is how far from the expected place and velocity it
-ended, at the worst of the three rates, in metres and m/s: to be held against `within`, which is asked of
-`standard`. A rougher preset may be off by what it promises. *fails* says what did not hold; "as it may":
-nothing exact is expected. The tables of `test/physics/hard_scenes.py` show the figure itself at the worst
-of the rates, beside the range that is expected of it.
+Made by `make hard`: every case of `test/physics/hard_cases/`, with every preset, at ticks of 50,
+250 and 1000 Hz. In all of them the ball must stay finite, out of the ground to 2e-6 m, gain no
+energy in still air beyond 1e-9 of it a tick, and come to its end. A cell is how far from the
+expected place and velocity it ended, at the worst of the three rates, in metres and m/s: to be
+held against `within`, which is asked of `standard`. A rougher preset may be off by what it
+promises. *fails* says what did not hold; "as it may": nothing exact is expected. The tables of
+`test/physics/hard_scenes.py` show the figure itself at the worst of the rates, beside the range
+that is expected of it.
 """
 
 
@@ -69,7 +69,7 @@ def deviation(ball, ends):
 
 
 def outcome(course, case, accuracy):
-    """Worst deviation over the rates, what failed, and how far the ends at the rates are apart [m]."""
+    """Worst deviation over the rates, what failed, and how far apart [m] the rates end."""
     worst, failure, told = 0.0, '', []
     for rate in RATES:
         world = start(course, {**case, 'accuracy': accuracy})
@@ -89,7 +89,7 @@ def outcome(course, case, accuracy):
 
 
 def cell(worst, failure, ends):
-    """What the table says of an outcome."""
+    """Write what the table says of an outcome."""
     if failure:
         return f'*fails*, {failure}'
     return f'{worst:.1e}' if 'within' in ends else 'as it may'
@@ -113,8 +113,8 @@ def passed(count):
         '',
         f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within',
         '2 m, every fourth grazing), at each of the three rates, so many passed through.',
-        'In brackets: how deep any ball was found in it, at any tick [m]. Expected: 0, and no deeper',
-        'than 2e-6 m and five times what a preset lets a path be off.',
+        'In brackets: how deep any ball was found in it, at any tick [m]. Expected: 0, and no',
+        'deeper than 2e-6 m and five times what a preset lets a path be off.',
         '',
         '| target | ' + ' | '.join(ACCURACY) + ' |',
         '|---|' + '---|' * len(ACCURACY),
@@ -134,7 +134,7 @@ def passed(count):
 
 
 def played(scene, accuracy):
-    """What the table says of a scene's figures at the rates: the worst one."""
+    """Write what the table says of a scene's figures at the rates: the worst one."""
     found = [scene.figure(accuracy, rate) for rate in RATES]
     worst = max(found, key=lambda figure: max(scene.least - figure, figure - scene.most))
     return f'{worst:.4g}' + ('' if scene.least <= worst <= scene.most else ' *fails*')

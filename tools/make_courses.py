@@ -12,7 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Make the shipped courses' files: ``python tools/make_courses.py [FOLDER]``, by default config/courses.
+"""Make the shipped courses' files: ``python tools/make_courses.py [FOLDER]``.
+
+By default the folder is config/courses.
 
 The same bytes come out every time. `golf_without_friends.yaml` is written by hand; its bunkers are
 made here.

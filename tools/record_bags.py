@@ -29,15 +29,14 @@ import sys
 from tempfile import TemporaryDirectory
 import time
 
-from geometry_msgs.msg import PointStamped, Twist, TwistStamped, Vector3Stamped
-import rclpy
-from std_msgs.msg import String
-
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT), str(ROOT / 'tools')]
+from geometry_msgs.msg import PointStamped, Twist, TwistStamped, Vector3Stamped  # noqa: E402
 from golf_sim_ros.recording.bag_file import raw_messages  # noqa: E402
 from golf_sim_ros.recording.bag_writer import BagWriter  # noqa: E402
+import rclpy  # noqa: E402
 from running import BIN, EVENTS, stopped  # noqa: E402
+from std_msgs.msg import String  # noqa: E402
 
 BAGS = ROOT / 'test' / 'data' / 'bags'
 LEFT_OUT = ('markers', 'diagnostics', 'heartbeat')  # what resimulate does not look at
@@ -61,7 +60,7 @@ class Player:
         self.results, self.entries = [], []
         for topic, kept in (('shot/result', self.results), ('journal', self.entries)):
             self.node.create_subscription(String, topic, partial(keep_told, kept), EVENTS)
-        self.still = {ball: False for ball in balls}
+        self.still = dict.fromkeys(balls, False)
         for ball in balls:
             self.node.create_subscription(
                 TwistStamped, f'{ball}/twist', partial(self.look_at, ball), 10
@@ -99,7 +98,7 @@ class Player:
             self.wait(lambda: self.answers() > tried)
 
     def played(self):
-        """Number of strikes in the journal."""
+        """Count the strikes in the journal."""
         return sum(entry['kind'] == 'strike' for entry in self.entries)
 
     def answers(self):
@@ -140,7 +139,7 @@ def keep_told(kept, message):
 
 
 def one_ball(player):
-    """A drive with a draw, an iron with backspin, a putt."""
+    """Play a drive with a draw, an iron with backspin, a putt."""
     for velocity, spin in ((DRIVE, DRAW), (IRON, BACKSPIN), (PUTT, (0.0, 0.0, 0.0))):
         player.strike('ball', velocity, spin)
         player.rest()

@@ -39,24 +39,28 @@ class Failed(RuntimeError):
 
 
 @contextmanager
-def nodes(*more):
-    """The processes of `NODES` by name; they get SIGINT at the end, and must end with exit code 0.
+def nodes():
+    """Start the processes of `NODES`: by name.
 
-    `more` are further commands, sequences of a program's name and its arguments. They are stopped
-    last.
+    They get SIGINT at the end, and must end with exit code 0; so must those that `start` adds.
     """
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.default_int_handler)
     processes = {}
     try:
-        for name, *arguments in (*((name,) for name in NODES), *more):
-            processes[name] = subprocess.Popen([BIN / name, *arguments])
+        for name in NODES:
+            start(processes, name)
         yield processes
     finally:
         codes = {name: stopped(process) for name, process in processes.items()}
     for name, code in codes.items():
         if code != 0:
             raise Failed(f'{name} ended with exit code {code}')
+
+
+def start(processes, name, *arguments):
+    """Start one more process, which is stopped after those before it."""
+    processes[name] = subprocess.Popen([BIN / name, *arguments])
 
 
 def stopped(process):
@@ -95,8 +99,17 @@ class Spectator:
         """Wait until the ball is seen on the tee."""
         self._wait(lambda: self.poses, FIRST_START, 'the ball to be on the tee')
 
+    def wait_for_recorder(self):
+        """Wait until somebody besides the sim listens to strikes, and to the journal."""
+        counted = self.node.count_subscribers
+        self._wait(
+            lambda: counted('ball/shot') > 1 and counted('journal') > 0,
+            FIRST_START,
+            'the recording to begin',
+        )
+
     def result(self, number):
-        """Result of shot `number`, a dict, waited for if need be; numbers start at 1."""
+        """Wait for the result of shot `number`, a dict; numbers start at 1."""
         self._wait(lambda: len(self.results) >= number, PATIENCE, f'the result of shot {number}')
         return self.results[number - 1]
 

@@ -18,19 +18,20 @@ Needs no ROS.
 """
 
 import argparse
+from collections.abc import Sequence
 from pathlib import Path
 import sys
 
-from .pipes import in_pipes
+from .closed_pipe import in_pipes
 from ..optional_packages import how_to_get
 from ..physics.engine.engines import prefer_compiled
 
-LIBRARIES = 'scipy', 'matplotlib', 'tqdm'
+LIBRARIES = ('scipy', 'matplotlib', 'tqdm')
 NEEDED = f'accuracy_study needs {", ".join(LIBRARIES)}: {how_to_get("study", *LIBRARIES)}'
 
 
 @in_pipes
-def main(args=None):
+def main(args: Sequence[str] | None = None) -> int:
     """Run the study and write its page; return the exit code."""
     prefer_compiled()
     parser = argparse.ArgumentParser(prog='accuracy_study', description=__doc__)
@@ -57,7 +58,8 @@ def main(args=None):
         print(f'{NEEDED} ({error})', file=sys.stderr)
         return 1
     given.output.mkdir(parents=True, exist_ok=True)
-    todo, found = jobs(given.quick), {}
+    todo = jobs(given.quick)
+    found: dict[str, list] = {}
     for part, job in tqdm(todo, desc='accuracy study', unit='row'):
         found.setdefault(part, []).append(job())
     page.write(found, given.output, 'accuracy_study --quick' if given.quick else 'accuracy_study')

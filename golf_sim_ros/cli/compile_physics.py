@@ -12,27 +12,32 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Compile the physics beforehand, once a machine or image: the compiled engine then starts at once."""
+"""Compile the physics beforehand, once a machine or image.
+
+The compiled engine then starts at once.
+"""
 
 import argparse
+from collections.abc import Sequence
 import sys
+from typing import Any
 
-from .pipes import in_pipes
+from .closed_pipe import in_pipes
 from ..course import CourseError, load_course
 from ..physics import World
 from ..physics.jit import cache
 from ..physics.jit.build import Build, READY
 
-EPILOG = """One program serves every course with one ball, another every course with several. They are
-kept in a folder of their own for each version of the physics; GOLF_SIM_ROS_CACHE names its parent. The exit
-code is 0 when all is compiled, 1 when it cannot be, 2 for wrong arguments."""
+EPILOG = """One program serves every course with one ball, another every course with several. They
+are kept in a folder of their own for each version of the physics; GOLF_SIM_ROS_CACHE names its
+parent. The exit code is 0 when all is compiled, 1 when it cannot be, 2 for wrong arguments."""
 PROGRAMS = {'one ball': ('ball',), 'several balls': ('red', 'blue')}
 BAR = '{percentage:3.0f} % |{bar}| {remaining} left'
 LOOK = 0.2  # s between two looks
 
 
 @in_pipes
-def main(args=None):
+def main(args: Sequence[str] | None = None) -> int:
     """Compile what is not compiled; return the exit code."""
     options = parser().parse_args(args)
     try:
@@ -52,7 +57,7 @@ def main(args=None):
     return 0
 
 
-def parser():
+def parser() -> argparse.ArgumentParser:
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='compile_physics', description=__doc__, epilog=EPILOG)
     reader.add_argument(
@@ -70,8 +75,8 @@ def parser():
     return reader
 
 
-def compiled(parts):
-    """Why the programs of `parts` could not be compiled, or ''; a bar shows how far it is."""
+def compiled(parts: Sequence[Any]) -> str:
+    """Compile the programs of `parts`, with a bar; return why that could not be, or ''."""
     build = Build(True, *parts)
     with bar() as shown:
         while not build.wait(LOOK):
@@ -81,11 +86,8 @@ def compiled(parts):
     return '' if build.state == READY else build.reason
 
 
-def bar():
-    """Progress bar of a hundred percent with the time left, where tqdm is installed.
-
-    Else `NoBar`.
-    """
+def bar() -> Any:
+    """Make a progress bar of a hundred percent; without tqdm it is a `NoBar`."""
     try:
         from tqdm import tqdm
     except ImportError:
@@ -98,13 +100,14 @@ class NoBar:
 
     n = 100
 
-    def __enter__(self):
+    def __enter__(self) -> 'NoBar':
+        """Begin nothing."""
         return self
 
-    def __exit__(self, *error):
-        return None
+    def __exit__(self, *error: object) -> None:
+        """End nothing."""
 
-    def update(self, step):
+    def update(self, step: int) -> None:
         """Show nothing."""
 
 

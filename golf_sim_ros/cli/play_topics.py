@@ -38,13 +38,13 @@ class Topic(NamedTuple):
     offered: QoSProfile
 
     @property
-    def type_name(self):
+    def type_name(self) -> str:
         """Name of the type, as in 'std_msgs/msg/String'."""
         package, *_, name = self.kind.__module__.split('.')[0], self.kind.__name__
         return f'{package}/msg/{name}'
 
-    def requested(self):
-        """QoS of a subscription that gets every message."""
+    def requested(self) -> QoSProfile:
+        """Give the QoS of a subscription that gets every message."""
         asked = QoSProfile(depth=DEEP, durability=self.offered.durability)
         if self.name in ANYBODYS:
             asked.reliability = ReliabilityPolicy.BEST_EFFORT
@@ -72,6 +72,6 @@ OF_BALL = (
 )
 
 
-def of_ball(name):
+def of_ball(name: str) -> tuple[Topic, ...]:
     """Topics of the ball `name`."""
     return tuple(topic._replace(name=f'{name}/{topic.name}') for topic in OF_BALL)

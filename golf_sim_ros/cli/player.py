@@ -14,22 +14,25 @@
 
 """A ROS node that strikes a ball and waits for the result."""
 
+from collections.abc import Callable
 import json
 from math import atan2, hypot
 import os
 import sys
 import time
+from typing import Any
 
-from geometry_msgs.msg import PoseStamped, Twist
+from geometry_msgs.msg import Point, PoseStamped, Twist
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.subscription import Subscription
 from std_msgs.msg import String
-from visualization_msgs.msg import MarkerArray
+from visualization_msgs.msg import Marker, MarkerArray
 
-from .reachability import Reach, SILENT
-from ..nodes.conversions import fill
+from ..nodes.conversions import strike, Vector
 from ..nodes.older_rclpy import publisher_count
+from ..nodes.reachability import Reach, SILENT
 
 # A result repeats the strike rounded to 1e-4.
 ROUNDING = 0.6e-4
@@ -63,7 +66,13 @@ class Player(Node):
         For how long to wait for a sim that cannot be reached any more once it was struck [s].
     """
 
-    def __init__(self, ball=None, namespace=None, timeout=5.0, wait=60.0):
+    def __init__(
+        self,
+        ball: str | None = None,
+        namespace: str | None = None,
+        timeout: float = 5.0,
+        wait: float = 60.0,
+    ) -> None:
         super().__init__(
             f'shoot_{os.getpid()}',
             namespace=namespace,
@@ -71,11 +80,18 @@ class Player(Node):
             enable_rosout=False,
         )
         self.ball = ball
-        self.timeout, self.wait = timeout, wait
-        self.received, self.number, self.said = 0, None, ''
-        self._lasting, self._matched_at = [], None
-        self.results, self.position, self.markers = [], None, None
-        self.struck_at, self.first_position = time.monotonic(), None
+        self.timeout = timeout
+        self.wait = wait
+        self.received = 0
+        self.number: int | None = None
+        self.said = ''
+        self._lasting: list[Subscription] = []
+        self._matched_at: float | None = None
+        self.results: list[dict[str, Any]] = []
+        self.position: Point | None = None
+        self.markers: list[Marker] | None = None
+        self.struck_at = time.monotonic()
+        self.first_position: Point | None = None
         self._shots = self.create_publisher(Twist, f'{ball}/shot' if ball else 'shot', 10)
         self._results = self.create_subscription(
             String, 'shot/result', self._take_result, RESULT_QOS
@@ -89,11 +105,11 @@ class Player(Node):
         self.create_subscription(MarkerArray, 'course/markers', self._take_markers, MARKERS_QOS)
 
     @property
-    def shot_topic(self):
+    def shot_topic(self) -> str:
         """Name of the topic to which the shot goes, with namespace and remappings."""
         return self._shots.topic_name
 
-    def find_sim(self):
+    def find_sim(self) -> None:
         """Wait until publisher and subscriptions match those of a sim.
 
         Raises
@@ -105,31 +121,32 @@ class Player(Node):
             raise NoShot(f'no sim answers on {self.shot_topic} within {self.timeout:g} s')
         if not self._wait(lambda: self.markers is not None, self.timeout):
             raise NoShot(
-                f'a sim listens on {self.shot_topic}, but shows no course within {self.timeout:g} s'
+                f'a sim listens on {self.shot_topic}, but shows no course within '
+                f'{self.timeout:g} s'
             )
 
-    def _is_reachable(self):
+    def _is_reachable(self) -> bool:
         if not self._shots.get_subscription_count():
             return False
         return self.reach.is_fresh() if self.reach.is_offered() else not self._hopes()
 
-    def _hopes(self):
+    def _hopes(self) -> bool:
         """Whether it is too early to say that a sim publishes no heartbeat."""
         self._matched_at = self._matched_at or time.monotonic()
         return time.monotonic() < self._matched_at + AT_ONCE
 
-    def _notice_absence(self, since):
+    def _notice_absence(self, since: float) -> None:
         absent = not self._shots.get_subscription_count() or self.reach.is_offered()
         if absent and time.monotonic() > since + NOTICE:
             self._say(f'no sim answers on {self.shot_topic} yet')
 
-    def _say(self, what):
+    def _say(self, what: str) -> None:
         """Print a line for the user, once."""
         if what != self.said:
             self.said = what
             print(f'shoot: {what}', file=sys.stderr, flush=True)
 
-    def way_to_hole(self):
+    def way_to_hole(self) -> tuple[float, float]:
         """Direction and distance from the ball to the hole.
 
         Returns
@@ -147,19 +164,20 @@ class Player(Node):
         self.find_sim()
         holes = [
             marker.pose.position
-            for marker in self.markers
+            for marker in self.markers or ()
             if (marker.ns, marker.id) == ('hole', 0)
         ]
         if not holes:
             raise NoShot('this course has no hole to aim at')
-        if not self._wait(lambda: self.position is not None, self.timeout):
+        self._wait(lambda: self.position is not None, self.timeout)
+        if self.position is None:
             raise NoShot(
                 f'no ball on {self._poses.topic_name}; name the one to strike with --ball'
             )
         x, y = holes[0].x - self.position.x, holes[0].y - self.position.y
         return atan2(y, x), hypot(x, y)
 
-    def strike(self, velocity, spin):
+    def strike(self, velocity: Vector, spin: Vector) -> dict[str, Any]:
         """Strike the ball and wait until the shot has ended.
 
         Parameters
@@ -180,21 +198,23 @@ class Player(Node):
         self.said = ''  # that it was not there yet is settled
         self.results.clear()
         beat = self._listen_for_good(velocity, spin) if self.reach.is_offered() else None
-        self.struck_at, self.first_position = time.monotonic(), None
-        self._shots.publish(twist(velocity, spin))
+        self.struck_at = time.monotonic()
+        self.first_position = None
+        self._shots.publish(strike(velocity, spin))
         while not self._wait(lambda: self._own_result(velocity, spin), 0.5):
             if beat:
                 self._look_after(beat)
             elif not publisher_count(self, self._results):
                 raise NoShot('the sim went away before the shot ended')
         result = self._own_result(velocity, spin)
+        assert result is not None  # it was waited for
         if result['status'] in ('rejected', 'aborted', 'failed'):
             raise NoShot(': '.join(filter(None, (result['status'], result['reason']))))
         return result
 
-    def _listen_for_good(self, velocity, spin):
+    def _listen_for_good(self, velocity: Vector, spin: Vector) -> dict[str, Any]:
         """Subscribe also to what is published while the link is cut; return the last heartbeat."""
-        beat = self.reach.last
+        beat = self.reach.beat
         self.received = beat['shots']
         self._lasting = [
             self.create_subscription(String, 'shot/result', self._take_result, LASTING_QOS),
@@ -207,7 +227,7 @@ class Player(Node):
         ]
         return beat
 
-    def _take_entry(self, message, velocity, spin):
+    def _take_entry(self, message: String, velocity: list[float], spin: list[float]) -> None:
         entry = json.loads(message.data)
         if entry['kind'] != 'strike' or entry['shot'] <= self.received or self.number is not None:
             return
@@ -217,12 +237,9 @@ class Player(Node):
         ):
             self.number = entry['shot']
 
-    def _look_after(self, struck):
-        """Say what became of the sim.
-
-        Raise `NoShot` where it was lost, or has not taken the strike.
-        """
-        now = self.reach.last
+    def _look_after(self, struck: dict[str, Any]) -> None:
+        """Say what became of the sim; raise `NoShot` where it or the strike was lost."""
+        now = self.reach.beat
         if now['session'] != struck['session']:
             raise NoShot('the sim was started anew: the shot is lost')
         if self.reach.silence() > SILENT + self.wait:
@@ -238,12 +255,12 @@ class Player(Node):
         if self.number is None and self.reach.has_had_time(self.struck_at):
             raise NoShot('nobody took the strike: it was lost on its way; strike again')
 
-    def _own_result(self, velocity, spin):
+    def _own_result(self, velocity: Vector, spin: Vector) -> dict[str, Any] | None:
         return next(
             (result for result in self.results if self._is_own(result, velocity, spin)), None
         )
 
-    def _is_own(self, result, velocity, spin):
+    def _is_own(self, result: dict[str, Any], velocity: Vector, spin: Vector) -> bool:
         if self.ball and result['ball'] != self.ball or result['shot'] <= self.received:
             return False
         if self.number is not None:
@@ -251,7 +268,12 @@ class Player(Node):
         told, struck = [*result['velocity'], *result['spin']], [*velocity, *spin]
         return all(a is not None and abs(a - b) <= ROUNDING for a, b in zip(told, struck))
 
-    def _wait(self, condition, seconds, meanwhile=lambda since: None):
+    def _wait(
+        self,
+        condition: Callable[[], Any],
+        seconds: float,
+        meanwhile: Callable[[float], None] = lambda since: None,
+    ) -> bool:
         """Whether `condition()` became true within so many `seconds`, spinning meanwhile."""
         since = time.monotonic()
         while not condition():
@@ -261,27 +283,19 @@ class Player(Node):
             rclpy.spin_once(self, timeout_sec=0.05)
         return True
 
-    def _take_result(self, message):
+    def _take_result(self, message: String) -> None:
         result = json.loads(message.data)
         if not (result['status'] == 'rejected' and self._is_under_way()):
             self.results.append(result)
 
-    def _is_under_way(self):
+    def _is_under_way(self) -> bool:
         """Whether our shot is played, so that a rejection is that of another just like it."""
         late = time.monotonic() > self.struck_at + AT_ONCE
         return late and self.position != self.first_position
 
-    def _take_pose(self, message):
+    def _take_pose(self, message: PoseStamped) -> None:
         self.position = message.pose.position
         self.first_position = self.first_position or self.position
 
-    def _take_markers(self, message):
+    def _take_markers(self, message: MarkerArray) -> None:
         self.markers = message.markers
-
-
-def twist(velocity, spin):
-    """Message that strikes a ball with this velocity and spin."""
-    message = Twist()
-    fill(message.linear, velocity)
-    fill(message.angular, spin)
-    return message

@@ -15,13 +15,19 @@
 """Draw a recorded play: from the side, from above, over time, and in numbers. Needs no ROS."""
 
 import argparse
+from collections.abc import Callable, Sequence
 import sys
+from typing import TYPE_CHECKING
 
-from .pipes import in_pipes
+from .closed_pipe import in_pipes
 from ..course import CourseError, load_course
 from ..optional_packages import how_to_get
-from ..recording.bag import BagError, read_bag
+from ..physics import Course
+from ..recording.bag import BagError, read_bag, Recording
 from ..recording.replay import course_of
+
+if TYPE_CHECKING:
+    from ..drawing.shots import DrawnShot
 
 NEEDED = f'plot_play needs matplotlib: {how_to_get("plot", "matplotlib")}'
 
@@ -31,7 +37,7 @@ class NoPicture(RuntimeError):
 
 
 @in_pipes
-def main(args=None):
+def main(args: Sequence[str] | None = None) -> int:
     """Draw the play of a bag; return the exit code."""
     options = parser().parse_args(args)
     try:
@@ -47,7 +53,7 @@ def main(args=None):
     return 0
 
 
-def parser():
+def parser() -> argparse.ArgumentParser:
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='plot_play', description=__doc__)
     reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
@@ -75,15 +81,19 @@ def parser():
     return reader
 
 
-def dots(text):
+def dots(text: str) -> int:
     """Pixels an inch, from the command line."""
     if not 20 <= int(text) <= 1200:
         raise argparse.ArgumentTypeError(f'{text} is not 20 to 1200')
     return int(text)
 
 
-def chosen(plays, options, recorded):
-    """The first of the recorded `plays` that has shots to be drawn, and these."""
+def chosen(
+    plays: Sequence[Recording],
+    options: argparse.Namespace,
+    recorded: Callable[[Recording], list['DrawnShot']],
+) -> tuple[Recording, list['DrawnShot']]:
+    """Find the first of the recorded `plays` that has shots to be drawn, and these."""
     if options.namespace is not None:
         plays = [
             play for play in plays if play.namespace.strip('/') == options.namespace.strip('/')
@@ -100,12 +110,12 @@ def chosen(plays, options, recorded):
     return found[0]
 
 
-def wanted(shots, numbers):
+def wanted(shots: list['DrawnShot'], numbers: Sequence[int] | None) -> list['DrawnShot']:
     """Those of `shots` with one of `numbers`; all, if there are no numbers."""
     return [shot for shot in shots if not numbers or shot.result.shot in numbers]
 
 
-def course_under(play, name):
+def course_under(play: Recording, name: str | None) -> Course | None:
     """Course that was played on, or None where the bag does not say."""
     if play.config is None:
         if name is None:
@@ -117,12 +127,12 @@ def course_under(play, name):
     return course
 
 
-def note(text):
+def note(text: str) -> None:
     """Print a line about something that the picture does not show."""
     print(f'plot_play: {text}', file=sys.stderr)
 
 
-def failed(reason):
+def failed(reason: object) -> int:
     """Say in one line why there is no picture; return the exit code."""
     note(' '.join(str(reason).split()))
     return 1

@@ -15,6 +15,7 @@
 """Record a play to a rosbag2 bag, where `ros2 bag record` is not installed."""
 
 import argparse
+from collections.abc import Iterable
 from datetime import datetime
 from functools import partial
 import sys
@@ -25,10 +26,11 @@ from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 from rclpy.signals import SignalHandlerOptions
+from rclpy.subscription import Subscription
 from rclpy.utilities import remove_ros_args
 
-from .pipes import in_pipes, say
-from .play_topics import of_ball, OF_SIM
+from .closed_pipe import in_pipes, say
+from .play_topics import of_ball, OF_SIM, Topic
 from ..nodes.environment import complete_environment, unsafe
 from ..nodes.lifecycle import Ending, EventsExecutor
 from ..recording.bag_writer import BagWriter, CannotRecord
@@ -52,15 +54,20 @@ class Recorder(Node):
         them.
     """
 
-    def __init__(self, bag, namespace=None, balls=()):
+    def __init__(
+        self, bag: BagWriter, namespace: str | None = None, balls: Iterable[str] = ()
+    ) -> None:
         super().__init__(
             'record_play', namespace=namespace, start_parameter_services=False, enable_rosout=False
         )
-        self.bag, self.topics, self.balls, self.named = bag, {}, [], list(balls)
+        self.bag = bag
+        self.topics: dict[str, tuple[Topic, Subscription]] = {}
+        self.balls: list[str] = []
+        self.named = list(balls)
         for topic in OF_SIM:
             self.follow(topic)
 
-    def follow(self, topic):
+    def follow(self, topic: Topic) -> None:
         """Record a topic from now on."""
         write = partial(self.on_message, topic)
         subscription = self.create_subscription(
@@ -68,7 +75,7 @@ class Recorder(Node):
         )
         self.topics[subscription.topic_name] = topic, subscription
 
-    def follow_named(self):
+    def follow_named(self) -> None:
         """Record the balls that the journal named since the last call, and print their names."""
         new = [ball for ball in self.named if ball not in self.balls]
         for topic in [topic for ball in new for topic in of_ball(ball)]:
@@ -78,7 +85,7 @@ class Recorder(Node):
             namespace = self.get_namespace()
             say(f'recording {", ".join(new)} of {namespace} to {self.bag.path}; Ctrl-C ends it')
 
-    def on_message(self, topic, data):
+    def on_message(self, topic: Topic, data: bytes) -> None:
         """Write one message; the journal also says which balls there are."""
         now = time.time_ns()
         name = self.resolve_topic_name(topic.name)
@@ -87,7 +94,7 @@ class Recorder(Node):
         if topic.name == 'journal':
             self.named += balls_in(deserialize_message(data, topic.kind).data)
 
-    def begin(self, name, topic):
+    def begin(self, name: str, topic: Topic) -> None:
         """Begin a topic in the bag with the QoS that is offered on it now, or usually."""
         if name not in self.bag.connections:
             offers = [info.qos_profile for info in self.get_publishers_info_by_topic(name)]
@@ -97,7 +104,7 @@ class Recorder(Node):
             }
             self.bag.add(name, topic.type_name, sorted(profiles))
 
-    def complete(self):
+    def complete(self) -> None:
         """Begin those topics that nobody has written to, and close the bag."""
         for name, (topic, _) in self.topics.items():
             if name not in ONLY_WHEN_HEARD:
@@ -105,7 +112,7 @@ class Recorder(Node):
         self.bag.close()
 
 
-def balls_in(text):
+def balls_in(text: str) -> list[str]:
     """Names of the balls, if `text` is the configuration of a journal."""
     try:
         return opened(text).get('parameters', {}).get('balls', [])
@@ -113,7 +120,7 @@ def balls_in(text):
         return []
 
 
-def record(recorder, ending):
+def record(recorder: Recorder, ending: Ending) -> None:
     """Write what arrives until a signal sets `ending`, and a little longer."""
     executor = EventsExecutor()
     executor.add_node(recorder)
@@ -126,7 +133,7 @@ def record(recorder, ending):
     executor.remove_node(recorder)
 
 
-def parser():
+def parser() -> argparse.ArgumentParser:
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='record_play', description=__doc__)
     reader.add_argument(
@@ -148,7 +155,7 @@ def parser():
 
 
 @in_pipes
-def main(args=None):
+def main(args: list[str] | None = None) -> int:
     """Record until a signal ends it; return the exit code."""
     args = sys.argv if args is None else args
     options = parser().parse_args(remove_ros_args(args)[1:])
@@ -165,7 +172,7 @@ def main(args=None):
         rclpy.try_shutdown()
 
 
-def recorded(options, ending):
+def recorded(options: argparse.Namespace, ending: Ending) -> int:
     """Record one bag; return the exit code."""
     bag = BagWriter(options.output, options.storage)
     recorder = Recorder(bag, options.namespace, options.balls)

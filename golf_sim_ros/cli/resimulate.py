@@ -12,35 +12,51 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Run recorded play again, without ROS: whether it is the same, and what another accuracy changes."""
+"""Run recorded play again, without ROS.
+
+It tells whether it is the same, and what another accuracy changes.
+"""
 
 import argparse
+from collections.abc import Sequence
 from math import dist
 import sys
 
-from .pipes import in_pipes
+from .closed_pipe import in_pipes
 from .. import __version__
-from ..physics import ACCURACY
+from ..physics import ACCURACY, World
 from ..physics.jit.build import READY
-from ..recording.bag import BagError, read_bag
+from ..recording.bag import BagError, read_bag, Recording
 from ..recording.journal import made_with
-from ..recording.replay import CLOSE, difference, engine_of, rerun, shots, tick_of, timed, world_of
+from ..recording.replay import (
+    CLOSE,
+    config_of,
+    difference,
+    engine_of,
+    rerun,
+    Shot,
+    shots,
+    tick_of,
+    timed,
+    world_of,
+)
 
-EPILOG = """Each shot is run by the engine that played it: the same bits. Where the compiled engine is missing
-here, plain Python takes its place, and has to agree to 1e-9. The exit code is 0 when every shot is the same,
-1 when one is not or the bag cannot be used, 2 for wrong arguments."""
+EPILOG = """Each shot is run by the engine that played it: the same bits. Where the compiled engine
+is missing here, plain Python takes its place, and has to agree to 1e-9. The exit code is 0 when
+every shot is the same, 1 when one is not or the bag cannot be used, 2 for wrong arguments."""
 SHORT_WAIT = 5.0  # s: what is compiled is loaded by then
 
 
 @in_pipes
-def main(args=None):
+def main(args: Sequence[str] | None = None) -> int:
     """Run a bag's play again; return the exit code."""
     options = parser().parse_args(args)
     try:
         plays = [play for play in read_bag(options.bag) if shots(play)]
         if not plays:
             raise BagError(f'{options.bag}: no strike is in a journal: it cannot be run again')
-        return 0 if all([resimulated(play, options) for play in plays]) else 1
+        same = [resimulated(play, options) for play in plays]
+        return 0 if all(same) else 1
     except BagError as error:
         print(f'resimulate: {" ".join(str(error).split())}', file=sys.stderr)
         return 1
@@ -48,7 +64,7 @@ def main(args=None):
         return 130
 
 
-def parser():
+def parser() -> argparse.ArgumentParser:
     """Parser of the command line."""
     reader = argparse.ArgumentParser(prog='resimulate', description=__doc__, epilog=EPILOG)
     reader.add_argument('bag', help='folder of a rosbag2 bag, or one of its files, .mcap or .db3')
@@ -59,8 +75,8 @@ def parser():
     return reader
 
 
-def resimulated(play, options):
-    """Run one recorded sim again and print a line for every shot; whether all are the same."""
+def resimulated(play: Recording, options: argparse.Namespace) -> bool:
+    """Run one recorded sim again, print a line for every shot; return whether all are the same."""
     world = world_of(play, options.course)
     introduce(play, world)
     found, engines = shots(play), engines_here(play, world)
@@ -74,12 +90,12 @@ def resimulated(play, options):
     return all(same)
 
 
-def introduce(play, world):
-    """Print what is run again, and a note if versions or processor are not those of the recording."""
-    config = play.config
+def introduce(play: Recording, world: World) -> None:
+    """Print what is run again, and a note where versions or processor are others by now."""
+    config = config_of(play)
     print(
-        f'{play.namespace or "/"}: {world.course.name}, {config["parameters"]["rate"]:g} ticks a second, '
-        f'accuracy {config["parameters"]["accuracy"]}'
+        f'{play.namespace or "/"}: {world.course.name}, {config["parameters"]["rate"]:g} ticks a '
+        f'second, accuracy {config["parameters"]["accuracy"]}'
     )
     then = {'golf_sim_ros': config['version'], **config['made_with']}
     now = {'golf_sim_ros': __version__, **made_with()}
@@ -94,8 +110,8 @@ def introduce(play, world):
         )
 
 
-def engines_here(play, world):
-    """Engines that this machine has, of those that played; prints a note where one is missing."""
+def engines_here(play: Recording, world: World) -> set[str]:
+    """Find the engines that this machine has, of those that played; note where one is missing."""
     if 'compiled' not in {engine_of(play, shot) for shot in shots(play)}:
         return {'python'}
     build = world.build(urgent=True)
@@ -112,10 +128,12 @@ def engines_here(play, world):
     return {'python'}
 
 
-def retold(play, world, shot, accuracy, engines):
-    """Run one shot, by its engine if that is one of `engines`, and print the line.
+def retold(
+    play: Recording, world: World, shot: Shot, accuracy: str | None, engines: set[str]
+) -> bool:
+    """Run one shot again and print a line about it; return whether it is the same.
 
-    Whether it is the same.
+    It is run by its engine, if that is one of `engines`.
     """
     name = f'shot {shot.strike["shot"]} ({shot.strike["ball"]})'
     if shot.gap:
@@ -128,8 +146,8 @@ def retold(play, world, shot, accuracy, engines):
     if found:
         after = (found.tick - shot.strike['tick']) * tick_of(play)
         print(
-            f'{name}: differs first at tick {found.tick}, {after:g} s after the strike, in {found.field}: '
-            f'{found.recorded} recorded, {found.again} again'
+            f'{name}: differs first at tick {found.tick}, {after:g} s after the strike, in '
+            f'{found.field}: {found.recorded} recorded, {found.again} again'
         )
     else:
         alike = 'identical' if world.engine == engine else f'the same to {CLOSE:g} in plain Python'
@@ -141,7 +159,7 @@ def retold(play, world, shot, accuracy, engines):
     return found is None
 
 
-def compared(world, shot, tick, accuracy):
+def compared(world: World, shot: Shot, tick: float, accuracy: str) -> str:
     """One line on what another accuracy changes in a shot."""
     rest, time = timed(world, shot, tick)
     other, faster = timed(world, shot, tick, accuracy)

@@ -14,6 +14,12 @@
 
 """Table of a `shot/result`, for people to read."""
 
+from typing import Any
+
+from ..shot_input.units import Units
+
+Result = dict[str, Any]  # what `shot/result` says
+
 ENDINGS = {
     'at_rest': 'at rest',
     'holed': 'in the hole',
@@ -25,7 +31,7 @@ LABEL = 15  # width of the column of labels
 WIDTH = 8  # of that of the numbers, two digits after the point, for putts
 
 
-def result_table(result, units):
+def result_table(result: Result, units: Units) -> str:
     """Lines of text for a shot's result.
 
     Parameters
@@ -45,14 +51,14 @@ def result_table(result, units):
     return '\n'.join(f'{label:<{LABEL}}{value}' for label, value in rows)
 
 
-def _ending(result):
-    ending = ENDINGS.get(result['status'], result['status'])
+def _ending(result: Result) -> str:
+    ending = ENDINGS.get(result['status']) or str(result['status'])
     return (
         f'{ending}, {result["lie"]}' if result['status'] == 'at_rest' and result['lie'] else ending
     )
 
 
-def _flight(result, units):
+def _flight(result: Result, units: Units) -> list[tuple[str, str]]:
     return [
         ('carry', _length(result['carry'], units)),
         ('carry side', _side(result['carry_side'], units)),
@@ -64,7 +70,7 @@ def _flight(result, units):
     ]
 
 
-def _whole(result, units):
+def _whole(result: Result, units: Units) -> list[tuple[str, str]]:
     rows = [
         ('total', _length(result['total'], units)),
         ('side', _side(result['side'], units)),
@@ -75,18 +81,18 @@ def _whole(result, units):
     return rows
 
 
-def _length(length, units):
+def _length(length: float, units: Units) -> str:
     return _amount(length / units.length.size, units.length.name)
 
 
-def _side(side, units):
+def _side(side: float, units: Units) -> str:
     towards = 'left' if side > 0.0 else 'right' if side < 0.0 else ''
     return f'{_length(abs(side), units)} {towards}'.rstrip()
 
 
-def _seconds(time):
+def _seconds(time: float) -> str:
     return _amount(time, 's')
 
 
-def _amount(number, unit):
+def _amount(number: float, unit: str) -> str:
     return f'{number:{WIDTH}.2f} {unit}'

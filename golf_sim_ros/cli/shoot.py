@@ -14,6 +14,8 @@
 
 """Hit one shot, typed as a launch monitor shows it, and print how it ends."""
 
+from argparse import Namespace
+from collections.abc import Sequence
 import sys
 
 import rclpy
@@ -21,17 +23,18 @@ from rclpy.exceptions import NameValidationException
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from .pipes import in_pipes
+from .closed_pipe import in_pipes
 from .player import NoShot, Player
 from .result_table import result_table
 from .shoot_arguments import parser
 from ..nodes.environment import complete_environment, unsafe
 from ..nodes.lifecycle import Ending
-from ..shot_input.launch_monitor import Launch, parted, velocity_and_spin
-from ..shot_input.units import UNITS
+from ..shot_input.clubs import Club
+from ..shot_input.launch_monitor import Launch, parted, Vector, velocity_and_spin
+from ..shot_input.units import Unit, UNITS, Units
 
 
-def parsed(argv):
+def parsed(argv: Sequence[str]) -> tuple[Namespace, Launch]:
     """Parse the command line of a shot.
 
     Parameters
@@ -57,7 +60,7 @@ def parsed(argv):
         reader.error(str(error))
 
 
-def launched(options):
+def launched(options: Namespace) -> Launch:
     """`Launch` of `options`: the club's, changed by what was given."""
     units, average = UNITS[options.units], _average(options)
     return Launch(
@@ -68,7 +71,7 @@ def launched(options):
     )
 
 
-def _average(options):
+def _average(options: Namespace) -> Launch:
     """`Launch` that the options change: the club's average, or none at all."""
     hit, power = options.club, options.power
     if hit is not None and hit.launch is not None:
@@ -83,7 +86,7 @@ def _average(options):
     return Launch(speed=0.0)
 
 
-def _spins(options, units, average):
+def _spins(options: Namespace, units: Units, average: Launch) -> dict[str, float]:
     """Backspin and sidespin, by name."""
     by_axis = options.spin is not None or options.axis is not None
     by_parts = options.backspin is not None or options.sidespin is not None
@@ -98,11 +101,11 @@ def _spins(options, units, average):
     return {'backspin': backspin, 'sidespin': sidespin}
 
 
-def _given(value, unit, otherwise):
+def _given(value: float | None, unit: Unit, otherwise: float) -> float:
     return otherwise if value is None else value * unit.size
 
 
-def publish_line(topic, velocity, spin):
+def publish_line(topic: str, velocity: Vector, spin: Vector) -> str:
     """Line that strikes the ball when it is pasted into a shell, in full precision."""
     linear, angular = (
         ', '.join(f'{axis}: {_yaml(number)}' for axis, number in zip('xyz', vector))
@@ -114,16 +117,16 @@ def publish_line(topic, velocity, spin):
     )
 
 
-def _yaml(number):
+def _yaml(number: float) -> str:
     """Text of a number as YAML 1.1 reads it: 1e-05 would be a text there."""
     text = repr(float(number))
     return text.replace('e', '.0e') if 'e' in text and '.' not in text else text
 
 
-def described(launch, hit, units):
+def described(launch: Launch, hit: Club | None, units: Units) -> str:
     """One line that describes the launch."""
 
-    def show(number, unit, digits=1):
+    def show(number: float, unit: Unit, digits: int = 1) -> str:
         return f'{round(number / unit.size, digits) + 0.0:.{digits}f} {unit.name}'
 
     return (
@@ -134,7 +137,7 @@ def described(launch, hit, units):
     )
 
 
-def shoot(player, options, launch):
+def shoot(player: Player, options: Namespace, launch: Launch) -> None:
     """Hit `launch`, or only print it, and print how it ends."""
     units = UNITS[options.units]
     heading, distance = player.way_to_hole() if options.aim else (0.0, None)
@@ -150,7 +153,7 @@ def shoot(player, options, launch):
 
 
 @in_pipes
-def main(args=None):
+def main(args: list[str] | None = None) -> int:
     """Hit the shot on the command line; return the exit code."""
     ending = Ending()
     try:
@@ -168,7 +171,7 @@ def main(args=None):
     return 0
 
 
-def begun(args):
+def begun(args: list[str]) -> tuple[Namespace, Launch]:
     """Start ROS with its own arguments, and parse the others."""
     complete_environment()
     try:
@@ -181,7 +184,7 @@ def begun(args):
         ) from None
 
 
-def failed(reason, code):
+def failed(reason: object, code: int) -> int:
     """Say in one line why there is no shot; return the exit code."""
     print(f'shoot: {" ".join(str(reason).split())}', file=sys.stderr)
     return code

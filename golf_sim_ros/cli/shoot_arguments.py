@@ -18,7 +18,7 @@ import argparse
 from math import isfinite
 import re
 
-from ..shot_input.clubs import club, PUTTER, TOUR_AVERAGES
+from ..shot_input.clubs import Club, club, PUTTER, TOUR_AVERAGES
 from ..shot_input.units import UNITS
 
 EXAMPLES = """
@@ -32,14 +32,15 @@ examples:
   shoot driver --ball red --namespace /range      one ball of many, one sim of many
   shoot driver --print                            only the line for ros2 topic pub
 
-Signs: azimuth, spin axis and sidespin are positive to the right of the target. The target is the +x
-axis of the course, or the hole with --aim hole. Arguments after --ros-args go to ROS.
+Signs: azimuth, spin axis and sidespin are positive to the right of the target. The target is the
++x axis of the course, or the hole with --aim hole. Arguments after --ros-args go to ROS.
 
-exit code: 0 when the shot was played, 1 when it was not (one line says why), 2 for wrong arguments.
+exit code: 0 when the shot was played, 1 when it was not (one line says why), 2 for wrong
+arguments.
 """
 
 
-def parser():
+def parser() -> argparse.ArgumentParser:
     """Parser of the command line, without ROS's arguments."""
     made = argparse.ArgumentParser(
         prog='shoot',
@@ -60,7 +61,7 @@ def parser():
     return made
 
 
-def _add_launch(group):
+def _add_launch(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         '--units',
         choices=UNITS,
@@ -106,7 +107,7 @@ def _add_launch(group):
     )
 
 
-def _add_sim(group):
+def _add_sim(group: argparse._ArgumentGroup) -> None:
     group.add_argument(
         '--ball', type=_ball, metavar='NAME', help='ball to strike; default: the one in play'
     )
@@ -124,7 +125,8 @@ def _add_sim(group):
         metavar='S',
         default=60.0,
         help=(
-            'for how many seconds to wait for a struck sim that cannot be reached any more (default: 60)'
+            'for how many seconds to wait for a struck sim that cannot be reached any more '
+            '(default: 60)'
         ),
     )
     group.add_argument(
@@ -134,7 +136,7 @@ def _add_sim(group):
     )
 
 
-def _club_table():
+def _club_table() -> str:
     rows = [
         f'  {name:<8}{mph:>6} mph {degrees:>6} deg {rpm:>6} rpm {yards:>6} yd'
         for name, mph, degrees, rpm, yards in TOUR_AVERAGES
@@ -143,14 +145,14 @@ def _club_table():
     return '\n'.join([title, *rows, f'  {PUTTER:<8}   give --speed; launch and spin are 0', ''])
 
 
-def _club(text):
+def _club(text: str) -> Club:
     try:
         return club(text)
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-def _number(text):
+def _number(text: str) -> float:
     try:
         number = float(text)
     except ValueError:
@@ -160,14 +162,14 @@ def _number(text):
     return number
 
 
-def _not_negative(text):
+def _not_negative(text: str) -> float:
     number = _number(text)
     if number < 0.0:
         raise argparse.ArgumentTypeError(f'{text} is negative')
     return number
 
 
-def _ball(text):
+def _ball(text: str) -> str:
     if not re.fullmatch('[a-z][a-z0-9_]*', text):
         raise argparse.ArgumentTypeError(
             f'{text!r} is no name of a ball: a-z first, then a-z, 0-9 and _'

@@ -14,10 +14,12 @@
 
 """Courses from YAML files: read, checked, and made into the records that the physics plays on."""
 
+from collections.abc import Callable, Mapping, Sequence
 from hashlib import sha256
 import os
+from os import PathLike
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -29,6 +31,7 @@ from .mesh_file import outward, read_mesh
 from .package_files import share
 from .plausibility import files_reach, looker, misplaced
 from .schema import (
+    Checker,
     CourseError,
     direction,
     fields,
@@ -56,16 +59,29 @@ from ..physics.geometry.solid import Cylinder, Sphere
 from ..physics.geometry.water_surface import Water
 from ..physics.geometry.zone import Zone
 from ..physics.properties.air import Air, density, standard_atmosphere
+from ..physics.properties.material import Material
 from ..physics.scene.course_record import Ball, Course
 
 __all__ = ['CourseError', 'load_course', 'load_round', 'shipped_courses']
+
+
+class MeshFile(NamedTuple):
+    """A mesh file as read: triangles, notes on what was repaired, SHA-256 of its bytes."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    notes: tuple[str, ...]
+    digest: bytes
+
+
+Opened = dict[tuple[str, str | None, float], MeshFile]  # by name in the file, up and scale
 
 FORMAT = 1
 UP = {'y': 'y', 'z': 'z'}  # axes of a mesh file
 
 
-def format_number(value, key):
-    """Checker of ``format``, the number of the schema."""
+def format_number(value: Any, key: str) -> int:
+    """Check ``format``, the number of the schema."""
     if type(value) is not int or value != FORMAT:
         raise refused(key, value, f'{FORMAT}')
     return value
@@ -92,7 +108,13 @@ WEATHER = record(
         'relative_humidity': number(0, 1),
     },
 )
-ALTITUDE = fields({'altitude': number(-1000, 11000)})
+AT_ALTITUDE = fields(
+    {
+        'altitude': number(-1000, 11000),
+        'temperature': number(150, 400),
+        'relative_humidity': number(0, 1),
+    }
+)
 BALL = record(
     Ball,
     {
@@ -108,7 +130,7 @@ CUTS = list_of(polygon, 'a list of polygons, each a list of corners [x, y]')
 WATER = record(Water, {'polygon': polygon, 'level': number(), 'cut': CUTS}, ('polygon', 'level'))
 
 
-def load_course(name_or_path):
+def load_course(name_or_path: str | PathLike[str]) -> Course:
     """Load a course, ready to be played.
 
     Parameters
@@ -132,7 +154,7 @@ def load_course(name_or_path):
             f'{path}: is a round of {len(names)} courses: give one of them: {", ".join(names)}'
         )
     base, sources = shipped()
-    opened = {}
+    opened: Opened = {}
     try:
         with uncollected(), np.errstate(all='ignore'):  # whatever is not finite is refused
             course = course_of(content, base, path.parent, sources, opened)
@@ -146,7 +168,7 @@ def load_course(name_or_path):
     )
 
 
-def load_round(name_or_path):
+def load_round(name_or_path: str | PathLike[str]) -> tuple[Course, ...]:
     """Load the courses of a round, in the order of play.
 
     Parameters
@@ -177,14 +199,14 @@ def load_round(name_or_path):
         raise CourseError(f'{path}: round: {error}') from None
 
 
-def opened_course(name_or_path):
+def opened_course(name_or_path: str | PathLike[str]) -> tuple[Path, bytes, Any]:
     """Path, bytes and content of a course file."""
     path = course_file(name_or_path)
     with uncollected():
         return path, *read_yaml(path)
 
 
-def round_of(path, content):
+def round_of(path: Path, content: Any) -> tuple[str, ...] | None:
     """Names of the courses that a file with the key ``round`` names; None where it is a course."""
     if not isinstance(content, dict) or 'round' not in content:
         return None
@@ -194,12 +216,12 @@ def round_of(path, content):
         raise CourseError(f'{path}: {error}') from None
 
 
-def shipped_courses():
+def shipped_courses() -> dict[str, Path]:
     """Paths of the courses that come with the package, by name."""
     return {path.stem: path for path in sorted(share('config', 'courses').glob('*.yaml'))}
 
 
-def course_file(name_or_path):
+def course_file(name_or_path: str | PathLike[str]) -> Path:
     """Path of a course: of a shipped one by its name, else whatever file is meant."""
     known = shipped_courses()
     if name_or_path in known:
@@ -216,8 +238,11 @@ def course_file(name_or_path):
     return path
 
 
-def digest(raw, sources, opened):
-    """SHA-256 over the bytes of the course file and of all it calls for, in the order of their names."""
+def digest(raw: bytes, sources: dict[str, bytes], opened: Opened) -> str:
+    """SHA-256 over the bytes of the course file and of all it calls for.
+
+    In the order of their names.
+    """
     total = sha256(sha256(raw).digest())
     for name in sorted(sources):
         total.update(name.encode() + b'\0' + sha256(sources[name]).digest())
@@ -227,14 +252,20 @@ def digest(raw, sources, opened):
     return total.hexdigest()
 
 
-def course_of(content, base, folder, sources, opened):
+def course_of(
+    content: Any,
+    base: dict[str, dict[str, Any]],
+    folder: Path,
+    sources: dict[str, bytes],
+    opened: Opened,
+) -> Course:
     """`Course` of a file's `content`; `base` holds the entries of the shipped materials.
 
     What the file calls for is looked for from `folder` on; bytes of height maps are put into
     `sources`, meshes into `opened`, by the names that the file gives them.
     """
     known = materials(mapping(content, '').get('materials', {}), base)
-    notes = []
+    notes: list[str] = []
     shape = shape_of(
         known, heightmap_of(known, folder, sources, notes), mesh_of(known, folder, opened)
     )
@@ -275,7 +306,7 @@ def course_of(content, base, folder, sources, opened):
     return course._replace(notes=(*notes, *misplaced(course, files)))
 
 
-def on_ground(course, key, look, files):
+def on_ground(course: Course, key: str, look: Callable, files: Sequence[str | None]) -> None:
     """Refuse a course with a tee or hole that has no ground under it.
 
     `files`: those of its shapes.
@@ -287,7 +318,7 @@ def on_ground(course, key, look, files):
         )
 
 
-def free_at_tee(course):
+def free_at_tee(course: Course) -> None:
     """Refuse a course on whose tee no ball can lie."""
     try:
         physics.check_tee(course)
@@ -295,7 +326,7 @@ def free_at_tee(course):
         raise CourseError(str(error)) from None
 
 
-def even_around_hole(course, files):
+def even_around_hole(course: Course, files: Sequence[str | None]) -> None:
     """Refuse a course whose hole has no ground all round, or ground that is too uneven."""
     try:
         physics.check_hole(course)
@@ -303,17 +334,8 @@ def even_around_hole(course, files):
         raise CourseError(f'{error}{files_reach(course, files)}') from None
 
 
-class MeshFile(NamedTuple):
-    """A mesh file as read: triangles, notes on what was repaired, SHA-256 of its bytes."""
-
-    vertices: np.ndarray
-    faces: np.ndarray
-    notes: tuple
-    digest: bytes
-
-
-def mesh_of(known, folder, opened):
-    """Checker of a mesh; see `course_of`."""
+def mesh_of(known: Mapping[str, Material], folder: Path, opened: Opened) -> Checker:
+    """Make the checker of a mesh; see `course_of`."""
     read = fields(
         {
             'file': text,
@@ -325,13 +347,14 @@ def mesh_of(known, folder, opened):
         ('file', 'material'),
     )
 
-    def check(value, key):
+    def check(value: Any, key: str) -> Mesh:
         entry = read(value, key)
         name, one_sided = entry['file'], entry.get('one_sided', False)
-        use = name, entry.get('up'), entry.get('scale', 1.0)
+        up, scale = entry.get('up'), entry.get('scale', 1.0)
+        use = name, up, scale
         try:
             if use not in opened:
-                opened[use] = opened_mesh(beside(folder, name), *use[1:])
+                opened[use] = opened_mesh(beside(folder, name), up, scale)
         except CourseError as error:
             reason = str(error).removeprefix(f'{folder / name}: ')
             raise CourseError(f'{key}.file {name}: {reason}') from None
@@ -345,7 +368,7 @@ def mesh_of(known, folder, opened):
     return check
 
 
-def opened_mesh(path, up, scale):
+def opened_mesh(path: Path, up: str | None, scale: float) -> MeshFile:
     """`MeshFile` of the file at `path`.
 
     The digest of a .gltf file covers the mesh too, which others hold.
@@ -357,8 +380,8 @@ def opened_mesh(path, up, scale):
     return MeshFile(vertices, faces, tuple(notes), digest.digest())
 
 
-def shape_of(known, heightmap, mesh):
-    """Checker of an entry of ``ground``.
+def shape_of(known: Mapping[str, Material], heightmap: Checker, mesh: Checker) -> Checker:
+    """Make the checker of an entry of ``ground``.
 
     `known`: materials by name; `heightmap`, `mesh` read files.
     """
@@ -382,7 +405,7 @@ def shape_of(known, heightmap, mesh):
         'mesh': mesh,
     }
 
-    def check(value, key):
+    def check(value: Any, key: str) -> Any:
         shape = tagged('shape', shapes)(value, key)
         if getattr(shape, 'cut', ()) and abs(shape.normal[2]) < 1e-3:
             raise refused(
@@ -393,8 +416,8 @@ def shape_of(known, heightmap, mesh):
     return check
 
 
-def obstacle_of(known):
-    """Checker of an entry of ``obstacles``; `known` holds the materials by name."""
+def obstacle_of(known: Mapping[str, Material]) -> Checker:
+    """Make the checker of an entry of ``obstacles``; `known` holds the materials by name."""
     common = {'material': one_of(known), 'radius': number(1e-3)}
     shapes = {
         'cylinder': record(
@@ -409,18 +432,23 @@ def obstacle_of(known):
     return tagged('shape', shapes)
 
 
-def zone_of(known):
-    """Checker of an entry of ``zones``."""
+def zone_of(known: Mapping[str, Material]) -> Checker:
+    """Make the checker of an entry of ``zones``."""
     return record(
         Zone, {'material': one_of(known), 'polygon': polygon, 'cut': CUTS}, ('material', 'polygon')
     )
 
 
-def air(value, key):
-    """Checker of ``air``: weather, or an altitude in the standard atmosphere."""
+def air(value: Any, key: str) -> Air:
+    """Check ``air``: weather, or an altitude in the standard atmosphere.
+
+    An altitude's pressure may have a temperature and a humidity of its own.
+    """
     if 'altitude' in mapping(value, key):
-        return standard_atmosphere(**ALTITUDE(value, key))
-    weather = WEATHER(value, key)
+        own = AT_ALTITUDE(value, key)
+        weather = standard_atmosphere(own.pop('altitude'))._replace(**own)
+    else:
+        weather = WEATHER(value, key)
     if density(weather) < 0:
         raise refused(
             f'{key}.pressure', weather.pressure, 'more than that of the vapour in the air'
@@ -428,16 +456,16 @@ def air(value, key):
     return weather
 
 
-def effects(value, key):
-    """Checker of ``effects``: 'auto', or names; returns 'auto' or a tuple."""
+def effects(value: Any, key: str) -> str | tuple[str, ...]:
+    """Check ``effects``: 'auto', or names; return 'auto' or a tuple."""
     if value in ('auto', ['auto']):
         return 'auto'
     names = {name: name for name in physics.EFFECTS}
     return list_of(one_of(names), 'auto, or a list of: ' + ', '.join(sorted(names)))(value, key)
 
 
-def to_come(value, key):
-    """Checker of a key that the physics does not know yet: only an empty value passes."""
+def to_come(value: Any, key: str) -> tuple:
+    """Check a key that the physics does not know yet: only an empty value passes."""
     if value != []:
         raise CourseError(f'{key} {shown(value)} is not yet supported; leave it out')
     return ()

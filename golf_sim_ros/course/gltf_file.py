@@ -14,16 +14,18 @@
 
 """glTF 2.0 (Khronos, ISO/IEC 12113): refuses what trimesh would read wrongly without saying so."""
 
+from collections.abc import Sequence
 from io import BytesIO
 import json
+from pathlib import Path
+from typing import Any
 from urllib.parse import unquote
 
 from .input_file import beside, content
 from .schema import CourseError, shown
 
 MAGIC, JSON = b'glTF', b'JSON'
-# What changes where triangles lie. Of the compressed ones trimesh reads some, if it finds a
-# decoder.
+# What changes where triangles lie. Of the compressed ones trimesh reads some, if it has a decoder.
 UNREAD = {
     'KHR_draco_mesh_compression': 'is compressed with Draco: export it without compression',
     'EXT_meshopt_compression': 'is compressed with meshopt: export it without compression',
@@ -37,10 +39,10 @@ WIDTHS = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4, 'MAT2': 4, 'MAT3': 9, 'M
 class Neighbours:
     """Resolver for trimesh of the files that a .gltf file names, from its own folder."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
 
-    def get(self, name):
+    def get(self, name: str) -> bytes:
         """Bytes of a file."""
         try:
             return content(beside(self.folder, unquote(name)))
@@ -50,7 +52,7 @@ class Neighbours:
     __getitem__ = get
 
 
-def checked_gltf(raw, path):
+def checked_gltf(raw: bytes, path: Path) -> None:
     """Refuse a file that trimesh would read wrongly without saying so."""
     try:
         tree = json.loads(json_of(raw) if path.suffix.lower() == '.glb' else raw)
@@ -70,7 +72,7 @@ def checked_gltf(raw, path):
         ) from None
 
 
-def json_of(raw):
+def json_of(raw: bytes) -> bytes:
     """JSON chunk of a .glb file, which says what is in it."""
     file = BytesIO(raw)
     magic, version, _ = file.read(4), int.from_bytes(file.read(4), 'little'), file.read(4)
@@ -82,7 +84,7 @@ def json_of(raw):
     return file.read(size)
 
 
-def check_accessors(tree):
+def check_accessors(tree: dict[str, Any]) -> None:
     """Refuse arrays that are longer than what they are taken from."""
     views = tree.get('bufferViews', ())
     for number, accessor in enumerate(tree.get('accessors', ())):
@@ -91,12 +93,12 @@ def check_accessors(tree):
         room = views[accessor['bufferView']]['byteLength'] if 'bufferView' in accessor else 1e7
         if not 0 <= count * size <= room:
             raise CourseError(
-                f'is no glTF file that can be read: accessor {number} tells of {shown(count)} rows, '
-                'and has not as many bytes'
+                f'is no glTF file that can be read: accessor {number} tells of {shown(count)} '
+                'rows, and has not as many bytes'
             )
 
 
-def check_primitive(primitive, accessors):
+def check_primitive(primitive: dict[str, Any], accessors: list[dict[str, Any]]) -> None:
     """Refuse triangles whose corners are not simply a list of numbers in metres."""
     mode = primitive.get('mode', TRIANGLES)
     if mode < TRIANGLES:  # points and lines are no ground
@@ -116,7 +118,7 @@ def check_primitive(primitive, accessors):
         )
 
 
-def check_nodes(nodes):
+def check_nodes(nodes: Sequence[dict[str, Any]]) -> None:
     """Refuse a node that is its own child, or that of several."""
     seen = set()
     for node in nodes:
@@ -127,7 +129,7 @@ def check_nodes(nodes):
                 )
             seen.add(child)
     left = [number for number in range(len(nodes)) if number not in seen]
-    reached = set()
+    reached: set[int] = set()
     while left:
         number = left.pop()
         reached.add(number)

@@ -16,14 +16,14 @@
 
 from io import BytesIO
 from math import prod
-from typing import NamedTuple, Optional
+from typing import NamedTuple
 import warnings
 
 import numpy as np
 
 from .schema import CourseError, shown
 
-# m; the last is of US state planes
+# Metres in each; the last is that of US state planes.
 UNITS = {'metres': 1.0, 'feet': 0.3048, 'us_feet': 1200.0 / 3937.0}
 HEADERS = {
     (1, 0): np.lib.format.read_array_header_1_0,
@@ -41,13 +41,13 @@ class Grid(NamedTuple):
 
     heights: np.ndarray
     missing: np.ndarray
-    corner: Optional[tuple] = None
-    spacing: Optional[float] = None
-    unit: Optional[str] = None
-    height_unit: Optional[str] = None
+    corner: tuple[float, float] | None = None
+    spacing: float | None = None
+    unit: str | None = None
+    height_unit: str | None = None
 
 
-def npy(raw, unit):
+def npy(raw: bytes, unit: str | None) -> Grid:
     """`Grid` of a .npy file."""
     if not raw.startswith(b'\x93NUMPY'):
         raise CourseError('is no .npy file')
@@ -68,8 +68,11 @@ def npy(raw, unit):
     return Grid(found.astype(float), np.zeros(found.shape, bool))
 
 
-def check_size(raw):
-    """Refuse an array whose header says more than its file holds: numpy would allocate it first."""
+def check_size(raw: bytes) -> None:
+    """Refuse an array whose header says more than its file holds.
+
+    Numpy would allocate it first.
+    """
     file = BytesIO(raw)
     version = np.lib.format.read_magic(file)
     if version in HEADERS:  # the others are of tables with names, and no heights

@@ -14,22 +14,29 @@
 
 """Height maps from files, checked: arrays of NumPy, GeoTIFF, and the ASCII grids of ESRI."""
 
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 
-from .height_grid import npy, UNITS
+from .height_grid import Grid, npy, UNITS
 from .input_file import beside, content
 from .missing_heights import CUSTOMARY, filled
-from .schema import below, CourseError, FAR, fields, flag, number, one_of, text, vector
+from .schema import below, Checker, CourseError, FAR, fields, flag, number, one_of, text, vector
 from .terrain_file import esri, geotiff
 from ..physics.geometry.heightmap import Heightmap
+from ..physics.properties.material import Material
 
 READERS = {'.npy': npy, '.asc': esri, '.tif': geotiff, '.tiff': geotiff}
 JUMP = 100.0  # m between neighbours: no ground that golf is played on; a value for no data is
 SIZE = number(1e-3)
 
 
-def heightmap_of(known, folder, sources, notes):
-    """Checker of a height map, an entry of ``ground``, that returns a `Heightmap`.
+def heightmap_of(
+    known: Mapping[str, Material], folder: Path, sources: dict[str, bytes], notes: list[str]
+) -> Checker:
+    """Make the checker of a height map, an entry of ``ground``, that returns a `Heightmap`.
 
     `known` holds the materials by name, `folder` is that of the course; the file's bytes are put
     into `sources` under its name, and what looks wrong is added to `notes`. It raises
@@ -51,7 +58,7 @@ def heightmap_of(known, folder, sources, notes):
         ('heights', 'material'),
     )
 
-    def check(value, key):
+    def check(value: Any, key: str) -> Heightmap:
         entry, place = read(value, key), below(key, 'heights')
         name = entry['heights']
         try:
@@ -67,15 +74,18 @@ def heightmap_of(known, folder, sources, notes):
     return check
 
 
-def subtract(value, key):
-    """x, y, and perhaps z, of the course's origin in the file's own coordinates, which may be far."""
+def subtract(value: Any, key: str) -> tuple[float, ...]:
+    """Check x, y, and perhaps z, of the origin of the course in the file's own coordinates.
+
+    These may be far.
+    """
     far = number(-1e9, 1e9)
     if isinstance(value, list) and len(value) == 3:
         return vector(3, -1e9, 1e9)(value, key)
     return (*vector(2, -1e9, 1e9)(value, key), far(0, key))
 
 
-def grid_in(raw, path, entry):
+def grid_in(raw: bytes, path: Path, entry: dict[str, Any]) -> Grid:
     """`Grid` in a file's bytes.
 
     CourseError where it holds anything else, or `entry` does not fit it.
@@ -99,7 +109,7 @@ def grid_in(raw, path, entry):
     return grid
 
 
-def placed(grid, entry, name, notes):
+def placed(grid: Grid, entry: dict[str, Any], name: str, notes: list[str]) -> Heightmap:
     """`Heightmap` of a `Grid`, in metres of the course; adds to `notes`."""
     said = grid.unit or entry.get('unit', 'metres')
     unit, height_unit = UNITS[said], UNITS[entry.get('height_unit') or grid.height_unit or said]
@@ -123,44 +133,50 @@ def placed(grid, entry, name, notes):
         heights = filled(np.where(absent, np.nan, heights))
     check_reach(heights, where)
     notes += [f'{name}: {note}' for note in jumps(heights, where)]
-    return Heightmap(tuple(map(tuple, heights.tolist())), origin, spacing, entry['material'])
+    heights.setflags(write=False)
+    return Heightmap(heights, origin, spacing, entry['material'])
 
 
 class Places:
     """Where on the course the heights of a map are, in words."""
 
-    def __init__(self, origin, spacing):
-        self.origin, self.spacing = origin, spacing
+    def __init__(self, origin: tuple[float, float], spacing: float) -> None:
+        self.origin = origin
+        self.spacing = spacing
 
-    def __call__(self, row, column):
+    def __call__(self, row: int, column: int) -> str:
+        """Say where a height is, by its row and column."""
         x, y = self.origin
         return f'at x {x + column * self.spacing:g}, y {y + row * self.spacing:g}'
 
 
-def absent_of(grid, entry):
+def absent_of(grid: Grid, entry: dict[str, Any]) -> np.ndarray:
     """Mask of the heights of a grid that stand for no data."""
     values = (entry['no_data'],) if 'no_data' in entry else CUSTOMARY
     return ~np.isfinite(grid.heights) | grid.missing | np.isin(grid.heights, values)
 
 
-def filling(grid, absent, where, fill):
-    """A note of which heights of a grid are `absent` and filled.
+def filling(grid: Grid, absent: np.ndarray, where: Places, fill: bool) -> str:
+    """Note which heights of a grid are `absent` and filled; CourseError where they may not be.
 
-    CourseError where they may not be.
+    `where` tells where on the course one is.
     """
     if absent.all():
         raise CourseError('holds no heights: all stand for no data')
-    place = tuple(np.argwhere(absent)[0])
+    place = tuple(map(int, np.argwhere(absent)[0]))
     of_all = f'{absent.sum()} of {absent.size}'
     if not fill:
         raise CourseError(
             f'height {list(map(int, place))} is {grid.heights[place]:g}, {where(*place)}: '
             f'{of_all} stand for no data; `fill: true` fills them from those around'
         )
-    return f'{of_all} heights stood for no data, the first {where(*place)}, and were filled from those around'
+    return (
+        f'{of_all} heights stood for no data, the first {where(*place)}, and were filled from '
+        'those around'
+    )
 
 
-def check_reach(heights, where):
+def check_reach(heights: np.ndarray, where: Places) -> None:
     """Check that no height is out of reach or not a number; CourseError where one is."""
     if not (np.abs(heights) <= FAR).all():
         place = tuple(np.argwhere(~(np.abs(heights) <= FAR))[0])
@@ -170,14 +186,14 @@ def check_reach(heights, where):
         )
 
 
-def jumps(heights, where):
-    """A note where neighbours differ by more than ground does."""
+def jumps(heights: np.ndarray, where: Places) -> list[str]:
+    """Note where neighbours differ by more than ground does."""
     for axis in (0, 1):
         steps = np.abs(np.diff(heights, axis=axis))
         place = np.unravel_index(steps.argmax(), steps.shape)
         if steps[place] > JUMP:
             return [
-                f'heights jump by {steps[place]:.4g} m beside the one {where(*place)}, and the surface '
-                'swings there; if a value stands for no data, say `no_data: VALUE`'
+                f'heights jump by {steps[place]:.4g} m beside the one {where(*map(int, place))}, '
+                'and the surface swings there; if a value stands for no data, say `no_data: VALUE`'
             ]
     return []

@@ -15,6 +15,7 @@
 """Bytes of the files that a course consists of: regular files only, no pointers of Git LFS."""
 
 import os
+from os import PathLike
 from pathlib import Path
 import stat
 
@@ -30,7 +31,7 @@ KINDS = {
 }
 
 
-def beside(folder, name):
+def beside(folder: Path, name: str) -> Path:
     """Path of a file that a course in `folder` calls `name`; ``~`` is a home."""
     try:
         return folder / Path(name).expanduser()
@@ -38,7 +39,7 @@ def beside(folder, name):
         raise CourseError(f'cannot be read: {error}') from None
 
 
-def is_there(path):
+def is_there(path: str | PathLike[str]) -> bool:
     """Whether there is a file at `path`, which may be no path at all."""
     try:
         return os.path.isfile(path)
@@ -46,7 +47,7 @@ def is_there(path):
         return False
 
 
-def content(path):
+def content(path: str | PathLike[str]) -> bytes:
     """Bytes of the file at `path`.
 
     Raises
@@ -73,7 +74,7 @@ def content(path):
     return raw
 
 
-def _refuse_special(mode):
+def _refuse_special(mode: int) -> None:
     """Raise where a file of this `mode` is no regular one."""
     kind = KINDS.get(stat.S_IFMT(mode))
     if kind:
@@ -82,7 +83,7 @@ def _refuse_special(mode):
         raise CourseError('cannot be read: Is a directory')
 
 
-def decoded(raw):
+def decoded(raw: bytes) -> str:
     """Text of `raw`: UTF-8, or UTF-16 where a byte-order mark says so; without that mark."""
     if raw[:2] in (b'\xff\xfe', b'\xfe\xff'):
         return raw.decode('utf-16', 'replace')

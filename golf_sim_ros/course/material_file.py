@@ -14,9 +14,13 @@
 
 """Materials: the shipped ones, one YAML file each, and those that a course adds or changes."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from .package_files import share
 from .schema import (
     below,
+    Checker,
     CourseError,
     fields,
     mapping,
@@ -37,7 +41,9 @@ from ..physics.properties.material import (
     rolling_resistance_of_stimp,
 )
 
-LAWS = {
+Entry = dict[str, Any]  # fields of a `Material`, and perhaps 'like'
+
+LAWS: dict[str, Checker] = {
     'penner': lambda value, key: fields({})(value, key) or PENNER,
     'quadratic': record(
         Restitution,
@@ -47,14 +53,14 @@ LAWS = {
 }
 
 
-def restitution(value, key):
-    """Checker of a number, or of a law of the approach speed; returns `Restitution`."""
+def restitution(value: Any, key: str) -> Restitution:
+    """Check a number, or a law of the approach speed; return `Restitution`."""
     if isinstance(value, dict):
         return tagged('law', LAWS)(value, key)
     return Restitution(number(0, 1)(value, key))
 
 
-FIELDS = {
+FIELDS: dict[str, Checker] = {
     'restitution': restitution,
     'tangential_restitution': number(-1, 1),
     'static_friction': number(0),
@@ -70,8 +76,8 @@ FIELDS = {
 }
 
 
-def entry(value, key, checkers=FIELDS):
-    """Checker of one material; returns a dict of `Material`'s fields, and perhaps 'like'."""
+def entry(value: Any, key: str, checkers: Mapping[str, Checker] = FIELDS) -> Entry:
+    """Check one material; return a dict of the fields of `Material`, and perhaps 'like'."""
     content = fields(checkers)(value, key)
     if 'stimp' in content:
         if 'rolling_resistance' in content:
@@ -82,13 +88,16 @@ def entry(value, key, checkers=FIELDS):
     return content
 
 
-def shipped():
-    """Entries of the shipped materials by name, cup and flagstick too, and the bytes of their files."""
+def shipped() -> tuple[dict[str, Entry], dict[str, bytes]]:
+    """Entries of the shipped materials by name, and the bytes of their files.
+
+    Cup and flagstick too, which have no files.
+    """
     entries = {
         made.name: {name: value for name, value in made._asdict().items() if name != 'name'}
         for made in (CUP_MATERIAL, FLAGSTICK_MATERIAL)
     }
-    sources = {}
+    sources: dict[str, bytes] = {}
     for path in sorted(share('config', 'materials').glob('*.yaml')):
         sources[path.stem], content = read_yaml(path)
         try:
@@ -98,7 +107,7 @@ def shipped():
     return entries, sources
 
 
-def materials(value, base):
+def materials(value: Any, base: dict[str, Entry]) -> dict[str, Material]:
     """`Material` records by name: those of `base` and a course's own.
 
     Parameters
@@ -114,28 +123,27 @@ def materials(value, base):
         )
         for name, content in mapping(value, 'materials').items()
     }
-    filled = {}
+    filled: dict[str, Entry] = {}
     for name in own:
         for step in reversed(_way_to_known(name, own, base, filled)):
             content = dict(own[step])
             like = content.pop('like', step)
-            above = (
-                base.get(step, {})
-                if like == step
-                else filled[like]
-                if like in filled
-                else base[like]
-            )
+            if like == step:
+                above = base.get(step, {})
+            else:
+                above = filled[like] if like in filled else base[like]
             filled[step] = {**above, **content}
     return {name: Material(name=name, **entry) for name, entry in {**base, **filled}.items()}
 
 
-def _way_to_known(name, own, base, filled):
-    """Names of materials from `name` on, each like the next one, up to what is `filled` or shipped.
+def _way_to_known(
+    name: str, own: dict[str, Entry], base: dict[str, Entry], filled: dict[str, Entry]
+) -> list[str]:
+    """Names of materials from `name` on, each like the next, up to what is `filled` or shipped.
 
     A material is like the shipped one of its name where it does not say otherwise.
     """
-    way = {name: None}  # in order, and found at once
+    way: dict[str, None] = {name: None}  # in order, and found at once
     while True:
         like = own[name].get('like')
         key = below(f'materials.{name}', 'like')

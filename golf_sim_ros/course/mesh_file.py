@@ -14,7 +14,9 @@
 
 """Triangles from files: STL, OBJ and PLY read here, glTF by trimesh where it is installed."""
 
+from collections.abc import Callable
 from io import BytesIO
+from os import PathLike
 from pathlib import Path
 
 import numpy as np
@@ -28,12 +30,14 @@ from .stl_file import stl
 from ..optional_packages import how_to_get
 from ..physics.geometry.mesh import NARROW, widths
 
+Triangles = tuple[np.ndarray, np.ndarray, list[str]]  # vertices, faces, notes: see `read_mesh`
+
 HINT = f'needs trimesh: {how_to_get("mesh", "trimesh")}'
 TALL = 3.0  # times as high as it is wide: a wall, or ground that lies on its side
 
 
-def read_mesh(path, up=None, scale=1.0):
-    """Triangles of a mesh file: .stl, .obj, .ply, and with trimesh .glb and .gltf.
+def read_mesh(path: str | PathLike[str], up: str | None = None, scale: float = 1.0) -> Triangles:
+    """Read the triangles of a mesh file: .stl, .obj, .ply, and with trimesh .glb and .gltf.
 
     Parameters
     ----------
@@ -67,21 +71,17 @@ def read_mesh(path, up=None, scale=1.0):
             vertices, faces, told = READERS[suffix](raw, path)
             vertices, told = upright(vertices, told, suffix, up)
             vertices, faces, put_right = cleaned(vertices * scale, faces)
-            return (
-                vertices,
-                faces,
-                [
-                    f'{path.name}: {note}'
-                    for note in (*told, *put_right, *lying(vertices, faces, suffix, up))
-                ],
-            )
+            notes = [*told, *put_right, *lying(vertices, faces, suffix, up)]
+            return vertices, faces, [f'{path.name}: {note}' for note in notes]
     except MemoryError:
         raise CourseError(f'{path}: is too large for the memory there is') from None
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
 
 
-def upright(vertices, notes, suffix, up):
+def upright(
+    vertices: np.ndarray, notes: list[str], suffix: str, up: str | None
+) -> tuple[np.ndarray, list[str]]:
     """`vertices` with z up, and notes."""
     if up is None and suffix in Y_UP:
         notes = [
@@ -94,13 +94,13 @@ def upright(vertices, notes, suffix, up):
     return np.stack((x, 0.0 - z, y), 1), notes
 
 
-def own_up(suffix, up):
+def own_up(suffix: str, up: str | None) -> str:
     """Which axis of the file points up."""
     return up or ('y' if suffix in Y_UP else 'z')
 
 
-def lying(vertices, faces, suffix, up):
-    """A note on a mesh that is much taller than it is wide: perhaps another axis is up."""
+def lying(vertices: np.ndarray, faces: np.ndarray, suffix: str, up: str | None) -> list[str]:
+    """Note that a mesh is much taller than it is wide: perhaps another axis is up."""
     x, y, z = np.ptp(vertices[faces].reshape(-1, 3), 0)
     if z <= TALL * min(x, y):
         return []
@@ -111,7 +111,7 @@ def lying(vertices, faces, suffix, up):
     ]
 
 
-def by_trimesh(raw, path):
+def by_trimesh(raw: bytes, path: Path) -> Triangles:
     """Vertices and faces of what trimesh can read, all parts of a scene in one."""
     try:
         import trimesh
@@ -136,7 +136,7 @@ def by_trimesh(raw, path):
 
 
 Y_UP = ('.glb', '.gltf')
-READERS = {
+READERS: dict[str, Callable[[bytes, Path], Triangles]] = {
     '.stl': lambda raw, path: stl(raw),
     '.obj': lambda raw, path: obj(raw),
     '.ply': lambda raw, path: ply(raw),
@@ -145,7 +145,7 @@ READERS = {
 }
 
 
-def cleaned(vertices, faces):
+def cleaned(vertices: np.ndarray, faces: np.ndarray) -> Triangles:
     """`vertices` and `faces` without what makes no ground, and notes about it; see `read_mesh`."""
     if len(faces) == 0:
         raise CourseError('has no faces')
@@ -171,8 +171,11 @@ def cleaned(vertices, faces):
     return vertices, faces, notes
 
 
-def merged(rows):
-    """Number of the first of each set of equal `rows` (n, 3), and for each row the number of its set."""
+def merged(rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Find sets of equal `rows` (n, 3).
+
+    Returns the number of the first row of each set, and for each row the number of its set.
+    """
     order = np.lexsort(rows.T)
     new = np.ones(len(rows), bool)
     new[1:] = (rows[order[1:]] != rows[order[:-1]]).any(1)
@@ -181,8 +184,11 @@ def merged(rows):
     return order[new], number
 
 
-def outward(vertices, faces, name):
-    """`faces` with their fronts outside, and notes: of a closed mesh that is inside out, they are turned."""
+def outward(vertices: np.ndarray, faces: np.ndarray, name: str) -> tuple[np.ndarray, list[str]]:
+    """`faces` with their fronts outside, and notes.
+
+    Those of a closed mesh that is inside out are turned.
+    """
     if not is_closed(faces):
         return faces, []
     a, b, c = (vertices - vertices.mean(0))[faces].transpose(1, 0, 2)
@@ -191,8 +197,11 @@ def outward(vertices, faces, name):
     return faces[:, ::-1], [f'{name}: was inside out, so its faces were turned']
 
 
-def is_closed(faces):
-    """Whether every side of a face is that of one other face, which runs along it the other way."""
+def is_closed(faces: np.ndarray) -> bool:
+    """Whether every side of a face is one of just one other face.
+
+    That one runs along it the other way.
+    """
     sides = faces[:, ((0, 1), (1, 2), (2, 0))].reshape(-1, 2)
     there = sides[np.lexsort(sides.T)]
     back = sides[:, ::-1][np.lexsort(sides[:, ::-1].T)]

@@ -21,7 +21,7 @@ CUSTOMARY = (-9999.0, -99999.0, -32768.0, -32767.0, -3.4028234663852886e38)
 SWEEPS = 50  # towards the mean of the neighbours, at each scale
 
 
-def filled(heights):
+def filled(heights: np.ndarray) -> np.ndarray:
     """`heights` with smooth ground in place of what is not a number.
 
     It is that of Laplace's equation, as a skin is stretched over a hole: within the heights
@@ -31,9 +31,8 @@ def filled(heights):
     known = np.isfinite(heights)
     if known.all():
         return heights
-    guess = np.kron(filled(halved(heights, known)), np.ones((2, 2)))[
-        : heights.shape[0], : heights.shape[1]
-    ]
+    rows, columns = heights.shape
+    guess = np.kron(filled(halved(heights, known)), np.ones((2, 2)))[:rows, :columns]
     heights = np.where(known, heights, guess)
     for _ in range(SWEEPS):
         edge = np.pad(heights, 1, 'edge')
@@ -42,7 +41,7 @@ def filled(heights):
     return heights
 
 
-def halved(heights, known):
+def halved(heights: np.ndarray, known: np.ndarray) -> np.ndarray:
     """Means of the `known` heights of each two by two; not a number where there is none."""
     rows, columns = heights.shape
     pad = ((0, rows % 2), (0, columns % 2))

@@ -14,6 +14,8 @@
 
 """Vertices and faces of OBJ files, in all the dialects that programs write."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from .input_file import decoded
@@ -21,40 +23,42 @@ from .polygon_faces import triangles_of
 from .schema import CourseError, shown
 
 
-def obj(raw):
+def obj(raw: bytes) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Vertices, faces and notes of an OBJ file; lines that are neither are not looked at.
 
     Lines may be indented, have tabs, comments behind them, and end in any way; vertices may have
     colours.
     """
-    vertices, polygons, lines = [], [], []
+    places: list[tuple[float, float, float]] = []
+    polygons: list[list[int]] = []
+    lines: list[int] = []
     for number, line in whole_lines(decoded(raw)):
         words = line.split()
         if not words or words[0] not in ('v', 'f'):
             continue
         try:
             if words[0] == 'v':
-                vertices.append(vertex(words))
+                places.append(vertex(words))
             else:
-                polygons.append(face(words, len(vertices)))
+                polygons.append(face(words, len(places)))
                 lines.append(number)
         except ValueError:
             raise CourseError(
                 f'is no OBJ file that can be read: line {number} {shown(line.strip())}: a vertex '
                 'is three numbers or more, a face three whole ones or more'
             ) from None
-    vertices = np.array(vertices, float).reshape(-1, 3)
+    vertices = np.array(places, float).reshape(-1, 3)
     check(polygons, lines, len(vertices))
     faces, crossed = triangles_of(polygons, vertices)
-    return (
-        vertices,
-        faces,
-        [f'the face in line {lines[i]} crosses itself and was left out' for i in crossed[:3]],
-    )
+    notes = [f'the face in line {lines[i]} crosses itself and was left out' for i in crossed[:3]]
+    return vertices, faces, notes
 
 
-def whole_lines(text):
-    """Number of each line, and the line without comment: with those that follow where a backslash ends it."""
+def whole_lines(text: str) -> Iterator[tuple[int, str]]:
+    """Yield the number of each line, and the line without its comment.
+
+    Where a backslash ends a line, with those that follow.
+    """
     begun, first = '', 0
     for number, line in enumerate(text.splitlines(), 1):
         first, line = first or number, line.partition('#')[0].rstrip()
@@ -67,13 +71,13 @@ def whole_lines(text):
         yield first, begun
 
 
-def vertex(words):
-    """x, y, z; what comes after them, a weight or a colour, does not count."""
+def vertex(words: list[str]) -> tuple[float, float, float]:
+    """Read x, y, z; what comes after them, a weight or a colour, does not count."""
     x, y, z = words[1:4]
     return float(x), float(y), float(z)
 
 
-def face(words, so_far):
+def face(words: list[str], so_far: int) -> list[int]:
     """Numbers of vertices from 0 on.
 
     A corner is ``vertex/texture/normal``, and negative ones count back.
@@ -86,7 +90,7 @@ def face(words, so_far):
     ]
 
 
-def check(polygons, lines, vertices):
+def check(polygons: list[list[int]], lines: list[int], vertices: int) -> None:
     """Refuse a face with a vertex that there is not."""
     for polygon, line in zip(polygons, lines):
         if not 0 <= min(polygon) <= max(polygon) < vertices:

@@ -14,6 +14,7 @@
 
 """Paths of the files that come with the package: courses, materials, parameters."""
 
+from collections.abc import Iterator
 import os
 from pathlib import Path
 import sys
@@ -21,11 +22,12 @@ import sys
 PACKAGE = 'golf_sim_ros'
 
 
-def share(*parts):
-    """Path of a file or folder that comes with the package, as in ``share('config', 'courses')``.
+def share(*parts: str) -> Path:
+    """Find a file or folder that comes with the package.
 
-    Works the same in a source checkout (``PYTHONPATH``, ``pip install -e``, ``colcon build
-    --symlink-install``) and after ``pip install`` or ``colcon build``.
+    As in ``share('config', 'courses')``. Works the same in a source checkout (``PYTHONPATH``,
+    ``pip install -e``, ``colcon build --symlink-install``) and after ``pip install`` or ``colcon
+    build``.
 
     Parameters
     ----------
@@ -49,16 +51,16 @@ def share(*parts):
     raise FileNotFoundError(f'the files that come with {PACKAGE} are in none of: {places}')
 
 
-def _candidates():
+def _candidates() -> Iterator[Path]:
     """Folders that may hold package.xml and config/, the ones nearest to this very file first."""
     here = Path(__file__).resolve()
     yield here.parents[2]  # source checkout
     sourced = os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep)
-    for prefix in [*_prefixes_above(here), sys.prefix, *sourced]:
+    for prefix in (*map(str, _prefixes_above(here)), sys.prefix, *sourced):
         if prefix:
             yield Path(prefix) / 'share' / PACKAGE
 
 
-def _prefixes_above(file):
+def _prefixes_above(file: Path) -> list[Path]:
     """PREFIX of PREFIX/lib/pythonX.Y/site-packages/golf_sim_ros/..., whichever Python that is."""
     return [folder.parent for folder in file.parents if folder.name in ('lib', 'lib64')]

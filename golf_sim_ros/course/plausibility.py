@@ -14,11 +14,13 @@
 
 """Plausibility of a course: meshes on their side or far from the tee."""
 
+from collections.abc import Callable, Sequence
 from math import dist
 from pathlib import Path
 
 import numpy as np
 
+from ..physics import Course, Material
 from ..physics.geometry.heightmap import corners as map_corners
 from ..physics.geometry.heightmap import Heightmap
 from ..physics.geometry.mesh import Mesh
@@ -28,8 +30,10 @@ from ..physics.scene.kernel_model import bare_ground, materials
 SMALL = 10.0  # m: smaller ones are bunkers and the like, which nobody tees up on
 
 
-def misplaced(course, files):
-    """Notes on meshes that are large enough to be the ground between tee and hole, and are not under them.
+def misplaced(course: Course, files: Sequence[str | None]) -> list[str]:
+    """Note meshes that are large enough to be the ground, and are not.
+
+    That is, to be the ground between tee and hole, and are not under them.
 
     Parameters
     ----------
@@ -38,7 +42,7 @@ def misplaced(course, files):
         Names of the files of what is in ``course.ground``.
     """
     meshes = [
-        (shape, Path(file).name)
+        (shape, Path(file or '').name)
         for shape, file in zip(course.ground, files)
         if isinstance(shape, Mesh)
     ]
@@ -57,26 +61,26 @@ def misplaced(course, files):
     ]
 
 
-def looker(course):
-    """Function that gives height [m] and `Material` of the highest ground at x, y.
+def looker(course: Course) -> Callable[[float, float], tuple[float, Material] | None]:
+    """Make the function that looks down at x, y.
 
-    None without any.
+    It gives height [m] and `Material` of the highest ground there, or None without any.
     """
     ground, known = bare_ground(course), materials(course)
 
-    def look(x, y):
+    def look(x: float, y: float) -> tuple[float, Material] | None:
         z, part, number = look_down(ground, float(x), float(y))
         return None if part < 0 else (z, known[number])
 
     return look
 
 
-def sizes(mesh):
+def sizes(mesh: Mesh) -> np.ndarray:
     """How long and how wide a mesh is, seen from above."""
     return np.ptp(mesh.vertices[mesh.faces].reshape(-1, 3)[:, :2], 0)
 
 
-def reach(mesh):
+def reach(mesh: Mesh) -> str:
     """From where to where a mesh goes, in words."""
     corners = mesh.vertices[mesh.faces].reshape(-1, 3)
     return ', '.join(
@@ -85,14 +89,14 @@ def reach(mesh):
     )
 
 
-def reach_of_map(shape):
+def reach_of_map(shape: Heightmap) -> str:
     """`reach` of a height map."""
     return ', '.join(
         f'{axis} {low:g} to {high:g}' for axis, low, high in zip('xy', *map_corners(shape))
     )
 
 
-def is_under(mesh, place):
+def is_under(mesh: Mesh, place: tuple[float, float]) -> bool:
     """Whether some triangle of a mesh lies under or over a place in plan."""
     corners = mesh.vertices[mesh.faces][:, :, :2] - place
     near = ((corners.min(1) <= 0.0) & (corners.max(1) >= 0.0)).all(1)
@@ -104,14 +108,14 @@ def is_under(mesh, place):
     return bool((((turns >= 0.0).all(1) | (turns <= 0.0).all(1)) & ~upright).any())
 
 
-def files_reach(course, files):
-    """Where meshes and height maps of a course are, where tee or hole has no ground.
+def files_reach(course: Course, files: Sequence[str | None]) -> str:
+    """Say where meshes and height maps of a course are; '' without any.
 
-    '' without any.
+    For a message where tee or hole has no ground.
     """
-    told = [
-        f'{Path(file).name} reaches {reach(shape) if isinstance(shape, Mesh) else reach_of_map(shape)}'
-        for shape, file in zip(course.ground, files)
-        if isinstance(shape, (Mesh, Heightmap))
-    ]
+    told = []
+    for shape, file in zip(course.ground, files):
+        if isinstance(shape, (Mesh, Heightmap)):
+            there = reach(shape) if isinstance(shape, Mesh) else reach_of_map(shape)
+            told.append(f'{Path(file or "").name} reaches {there}')
     return f'; {"; ".join(told[:3])}' if told else ''

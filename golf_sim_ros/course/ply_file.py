@@ -14,13 +14,17 @@
 
 """Vertices and faces of PLY files (Turk, The PLY polygon file format, 1994), text or binary."""
 
+from collections.abc import Callable, Iterator
 from struct import calcsize, unpack_from
 from struct import error as StructError
+from typing import Any
 
 import numpy as np
 
 from .polygon_faces import triangles_of
 from .schema import CourseError, shown
+
+Columns = dict[str, Any]  # by property: an array, or a list of lists
 
 TYPES = {
     'char': 'i1',
@@ -61,14 +65,16 @@ CORNERS = ('vertex_indices', 'vertex_index')
 class Element:
     """A kind of row, and how many there are.
 
-    Of each property its name, type, and that of a list's length.
+    `properties`: of each its name, its type, and the type of a length where it is a list.
     """
 
-    def __init__(self, name, count):
-        self.name, self.count, self.properties = name, count, []
+    def __init__(self, name: str, count: int) -> None:
+        self.name = name
+        self.count = count
+        self.properties: list[tuple[str, str, str | None]] = []
 
 
-def ply(raw):
+def ply(raw: bytes) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Vertices, faces and notes of a PLY file."""
     try:
         order, elements, body = header(raw)
@@ -96,12 +102,13 @@ def ply(raw):
     return vertices, faces, [f'face {i} crosses itself and was left out' for i in crossed[:3]]
 
 
-def header(raw):
+def header(raw: bytes) -> tuple[str, list[Element], int]:
     """Order of bytes ('' in text), `Element`s, and where their rows begin."""
     end = raw.find(b'end_header')
     if not raw.startswith(b'ply') or end < 0:
         raise CourseError('is no PLY file')
-    elements, order = [], None
+    elements: list[Element] = []
+    order = None
     for line in raw[:end].decode('ascii', 'replace').splitlines():
         words = line.split()
         if words[:1] == ['format']:
@@ -119,63 +126,64 @@ def header(raw):
     if order is None:
         raise CourseError('is no PLY file: it tells of no format')
     body = end + len(b'end_header')
-    return order, elements, body + (2 if raw[body : body + 2] == b'\r\n' else 1)
+    return order, elements, body + (2 if raw.startswith(b'\r\n', body) else 1)
 
 
-def text_rows(words):
-    """Reader of an element's rows from `words`: a dict of columns, those of lists are lists of arrays."""
+def text_rows(words: list[bytes]) -> Callable[[Element], Columns]:
+    """Make the reader of an element's rows from `words`.
+
+    It gives a dict of columns; those of lists are lists of lists.
+    """
     place = 0
 
-    def read(element):
+    def read(element: Element) -> Columns:
         nonlocal place
         if all(length is None for _, _, length in element.properties):
             width = len(element.properties)
-            table = np.array(words[place : place + element.count * width], float).reshape(
-                element.count, width
-            )
-            place += element.count * width
+            begin, place = place, place + element.count * width
+            table = np.array(words[begin:place], float).reshape(element.count, width)
             return {name: table[:, i] for i, (name, _, _) in enumerate(element.properties)}
-        columns = {name: [] for name, _, _ in element.properties}
+        columns: Columns = {name: [] for name, _, _ in element.properties}
         for _ in range(element.count):
             for name, _, length in element.properties:
                 size = 1
                 if length:
                     size, place = int(words[place]), place + 1
-                found = [float(word) for word in words[place : place + size]]
+                begin, place = place, place + size
+                found = [float(word) for word in words[begin:place]]
                 if len(found) != size:
                     raise ValueError
-                place += size
                 columns[name].append(found if length else found[0])
         return columns
 
     return read
 
 
-def binary_rows(raw, place, order):
-    """Reader of an element's rows from bytes, from `place` on: a dict of columns, as `text_rows`."""
+def binary_rows(raw: bytes, place: int, order: str) -> Callable[[Element], Columns]:
+    """Make the reader of an element's rows from bytes, from `place` on, as `text_rows` does."""
 
-    def read(element):
+    def read(element: Element) -> Columns:
         nonlocal place
-        columns, place = (
-            table if all(length is None for _, _, length in element.properties) else ragged
-        )(element, raw, place, order)
+        plain = all(length is None for _, _, length in element.properties)
+        columns, place = (table if plain else ragged)(element, raw, place, order)
         return columns
 
     return read
 
 
-def table(element, raw, place, order):
+def table(element: Element, raw: bytes, place: int, order: str) -> tuple[Columns, int]:
     """Columns of an element without lists, and where it ends."""
     kind = np.dtype([(name, order + sort) for name, sort, _ in element.properties])
     if kind.itemsize == 0:
         return {}, place
     found = np.frombuffer(raw, kind, element.count, place)
-    return {name: found[name] for name in kind.names}, place + element.count * kind.itemsize
+    columns = {name: found[name] for name, _, _ in element.properties}
+    return columns, place + element.count * kind.itemsize
 
 
-def ragged(element, raw, place, order):
-    """`table` of an element with lists."""
-    columns = {name: [] for name, _, _ in element.properties}
+def ragged(element: Element, raw: bytes, place: int, order: str) -> tuple[Columns, int]:
+    """Columns of an element with lists, and where it ends."""
+    columns: Columns = {name: [] for name, _, _ in element.properties}
     for _ in range(element.count):
         for name, sort, length in element.properties:
             size = 1
@@ -191,28 +199,25 @@ def ragged(element, raw, place, order):
     return columns, place
 
 
-def faces_in(rows):
+def faces_in(rows: dict[str, Columns]) -> list[list[int]]:
     """Polygons of faces, or of strips of triangles, where there are any."""
     if 'tristrips' in rows:
         return [triangle for strip in lists_in(rows['tristrips']) for triangle in stripped(strip)]
     return lists_in(rows['face']) if 'face' in rows else []
 
 
-def lists_in(columns):
-    """Lists of whole numbers of vertices."""
+def lists_in(columns: Columns) -> list[list[int]]:
+    """Numbers of vertices, whole ones, of each polygon."""
     name = next((name for name in CORNERS if name in columns), CORNERS[0])
     return [[int(corner) for corner in polygon] for polygon in columns[name]]
 
 
-def stripped(strip):
+def stripped(strip: list[int]) -> Iterator[list[int]]:
     """Triangles of a strip: each two corners with the next one; -1 begins another one."""
     begin = 0
     for i, corner in enumerate(strip):
         if corner < 0:
             begin = i + 1
         elif i >= begin + 2:
-            yield (
-                strip[i - 2 : i + 1]
-                if (i - begin) % 2 == 0
-                else [strip[i - 1], strip[i - 2], corner]
-            )
+            before, last = strip[i - 2], strip[i - 1]
+            yield [before, last, corner] if (i - begin) % 2 == 0 else [last, before, corner]

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Triangles of the faces of a mesh file, which may have many corners, be concave, and have holes.
+r"""Triangles of the faces of a mesh file, which may have many corners, be concave, and have holes.
 
 A convex face is a fan. Of any other one ears are cut, as Meisters (1975) and Eberly, Triangulation
 by ear clipping, say::
@@ -20,20 +20,26 @@ by ear clipping, say::
         e-----d            d is an ear of a b c d e: it turns left, and no other
         |    /             corner lies in c d e or on the cut from c to e
         |   c
-        |    \\
+        |    \
         a-----b
 
 A hole is joined to the outline by a slit, there and back, which is how such files have it; so
 corners may coincide. Nothing is added: each triangle's corners are corners of the face.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
 FLAT = 1e-14  # of a face's size squared: a triangle of less area is a line
 
 
-def triangles_of(polygons, vertices):
-    """Triangles of `polygons`, sequences of numbers of `vertices` (n, 3), and notes on what has none.
+def triangles_of(
+    polygons: Sequence[Sequence[int]], vertices: np.ndarray
+) -> tuple[np.ndarray, list[int]]:
+    """Triangles of `polygons`, and which of these have none.
+
+    A polygon is a sequence of numbers of `vertices` (n, 3).
 
     Returns
     -------
@@ -42,10 +48,11 @@ def triangles_of(polygons, vertices):
         Numbers of the polygons that cross themselves: they give no triangle.
     """
     sizes = np.array([len(polygon) for polygon in polygons], int)
-    found, crossed = [np.zeros((0, 3), np.int64)], []
+    found = [np.zeros((0, 3), np.int64)]
+    crossed: list[int] = []
     for size in np.unique(sizes):
         numbers = np.flatnonzero(sizes == size)
-        same = np.array([polygons[i] for i in numbers], np.int64)
+        same = np.array([polygons[int(i)] for i in numbers], np.int64)
         plain = convex(vertices[same]) if size > 3 else np.ones(len(same), bool)
         found += [same[plain][:, (0, k, k + 1)] for k in range(1, size - 1)]
         for number, polygon in zip(numbers[~plain], same[~plain]):
@@ -57,13 +64,13 @@ def triangles_of(polygons, vertices):
     return np.concatenate(found), sorted(crossed)
 
 
-def normals_of(corners):
+def normals_of(corners: np.ndarray) -> np.ndarray:
     """Newell's normals of faces with `corners` (m, n, 3): as long as twice the area."""
     around = corners - corners[:, :1]
     return np.cross(around, np.roll(around, -1, 1)).sum(1)
 
 
-def convex(corners):
+def convex(corners: np.ndarray) -> np.ndarray:
     """Whether a fan covers each of the faces with `corners` (m, n, 3), seen along its normal.
 
     So it does with a face that is a line: of triangles without area. One that crosses itself has a
@@ -83,10 +90,10 @@ def convex(corners):
     return line | wide & (turns >= least).all(1) & (areas >= least).all(1)
 
 
-def in_plane(corners):
+def in_plane(corners: np.ndarray) -> np.ndarray | None:
     """Corners (n, 2) of a face in its plane, counterclockwise, about 1 in size.
 
-    None without a side up.
+    None of a face without an area, which has no side up.
     """
     size = np.ptp(corners, 0).max()
     normal = normals_of(corners[np.newaxis])[0]
@@ -99,7 +106,7 @@ def in_plane(corners):
     return (corners - corners[0]) @ np.stack((across, np.cross(normal, across)), 1) / size
 
 
-def ears_of(points):
+def ears_of(points: np.ndarray | None) -> np.ndarray | None:
     """Rows of three corners each, that cover the polygon of `points` (n, 2), counterclockwise.
 
     None where it crosses itself.
@@ -115,9 +122,8 @@ def ears_of(points):
             ears.append((a, b, c))
             ring.remove(b)
             i, since = i + 1, 0  # the next but one: cut all in a row they would be slivers
-        elif since > len(
-            ring
-        ):  # all have been tried: a corner on a line, or a slit walked back, is left out
+        elif since > len(ring):
+            # All have been tried: a corner on a line, or a slit walked back, is left out.
             line = lines(points, ring)
             if line is None:
                 return None
@@ -129,39 +135,39 @@ def ears_of(points):
     return np.array(ears, np.int64).reshape(-1, 3)
 
 
-def turn(a, b, c):
+def turn(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> float:
     """Twice the area of the triangle, positive where its corners go round counterclockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
-def turns(a, b, points):
+def turns(a: np.ndarray, b: np.ndarray, points: np.ndarray) -> np.ndarray:
     """`turn` of `a`, `b` and each of `points` (n, 2)."""
     return (b[0] - a[0]) * (points[:, 1] - a[1]) - (b[1] - a[1]) * (points[:, 0] - a[0])
 
 
-def is_ear(points, ring, a, b, c):
+def is_ear(points: np.ndarray, ring: list[int], a: int, b: int, c: int) -> bool:
     """Whether no corner of the `ring` lies in the triangle, or on the cut from `c` to `a`.
 
     What lies on the other two sides, as each corner and what coincides with one, does not count.
     """
-    a, b, c, others = points[a], points[b], points[c], points[ring]
+    others = points[ring]
+    p, q, r = points[a], points[b], points[c]
     inside = (
-        (turns(a, b, others) > FLAT)
-        & (turns(b, c, others) > FLAT)
-        & (turns(c, a, others) >= -FLAT)
+        (turns(p, q, others) > FLAT)
+        & (turns(q, r, others) > FLAT)
+        & (turns(r, p, others) >= -FLAT)
     )
-    return not inside.any()
+    return not bool(inside.any())
 
 
-def lines(points, ring):
-    """The first of the `ring` at which it goes straight on, or back.
+def lines(points: np.ndarray, ring: list[int]) -> int | None:
+    """Find the first of the `ring` at which it goes straight on, or back.
 
     None where it nowhere does.
     """
     corners = points[ring]
     before, after = np.roll(corners, 1, 0), np.roll(corners, -1, 0)
-    areas = (corners[:, 0] - before[:, 0]) * (after[:, 1] - before[:, 1]) - (
-        corners[:, 1] - before[:, 1]
-    ) * (after[:, 0] - before[:, 0])
+    way, on = (corners - before).T, (after - before).T
+    areas = way[0] * on[1] - way[1] * on[0]
     flat = np.flatnonzero(np.abs(areas) <= FLAT)
     return ring[flat[0]] if len(flat) else None

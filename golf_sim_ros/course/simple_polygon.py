@@ -12,27 +12,31 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Whether a polygon crosses or touches itself, in n log n: the sweep of Shamos and Hoey (1976).
+r"""Whether a polygon crosses or touches itself, in n log n: the sweep of Shamos and Hoey (1976).
 
 A line goes over the plane from left to right and keeps the sides that it cuts in order from below.
 Two that meet are neighbours in that order before they do, so only neighbours are compared, when
 they become so::
 
-            \\   /            order at | :  c, b, a
-        a----\\-|/----
-        b-----\\|             a new side is compared with the one
-        c------|\\---         below and the one above it
+            \   /            order at | :  c, b, a
+        a----\-|/----
+        b-----\|             a new side is compared with the one
+        c------|\---         below and the one above it
 """
 
+from collections.abc import Sequence
 
-def crossing(corners):
-    """Numbers of two sides that share more than the corner between neighbours.
+Point = tuple[float, float]
+Side = tuple[Point, Point]  # its left end comes first
 
-    None where there are none.
 
-    `corners`: (x, y), no two the same in a row. Side i goes from corner i to the next one.
+def crossing(corners: Sequence[Point]) -> tuple[int, int] | None:
+    """Find two sides that share more than the corner between neighbours; None without any.
+
+    Returns their numbers. `corners`: (x, y), no two the same in a row. Side i goes from corner i
+    to the next one.
     """
-    sides = [(a, b) if a <= b else (b, a) for a, b in zip(corners, corners[1:] + corners[:1])]
+    sides = [(a, b) if a <= b else (b, a) for a, b in zip(corners, [*corners[1:], *corners[:1]])]
     twice = same_corner(corners)
     if twice:
         return twice
@@ -40,8 +44,8 @@ def crossing(corners):
         [(side[0], 0, number) for number, side in enumerate(sides)]
         + [(side[1], 1, number) for number, side in enumerate(sides)]
     )
-    order = []  # numbers of the sides that the line cuts, from below
-    # at one point begins come before ends, so what touches there is seen
+    order: list[int] = []  # numbers of the sides that the line cuts, from below
+    # At one point begins come before ends, so what touches there is seen.
     for point, is_end, number in ends:
         at = (
             place_of(point, order, sides, number)
@@ -56,13 +60,13 @@ def crossing(corners):
             pairs = [(at - 1, at), (at, at + 1)]
         for low, high in pairs:
             if 0 <= low and high < len(order) and meet(order[low], order[high], corners):
-                return tuple(sorted((order[low], order[high])))
+                return min(order[low], order[high]), max(order[low], order[high])
     return None
 
 
-def same_corner(corners):
+def same_corner(corners: Sequence[Point]) -> tuple[int, int] | None:
     """Sides that begin where the polygon has been before."""
-    known = {}
+    known: dict[Point, int] = {}
     for number, corner in enumerate(corners):
         if corner in known:
             return known[corner], number
@@ -70,7 +74,7 @@ def same_corner(corners):
     return None
 
 
-def place_in(point, side, order, sides):
+def place_in(point: Point, side: Side, order: list[int], sides: list[Side]) -> int:
     """Where in the `order` a side that begins at `point` belongs."""
     low, high = 0, len(order)
     while low < high:
@@ -84,7 +88,7 @@ def place_in(point, side, order, sides):
     return low
 
 
-def place_of(point, order, sides, number):
+def place_of(point: Point, order: list[int], sides: list[Side], number: int) -> int:
     """Where in the `order` the side that ends at `point` is."""
     low, high = 0, len(order)
     while low < high:
@@ -98,7 +102,7 @@ def place_of(point, order, sides, number):
     return low if low < len(order) and order[low] == number else order.index(number)
 
 
-def meet(i, j, corners):
+def meet(i: int, j: int, corners: Sequence[Point]) -> bool:
     """Whether sides `i` and `j` share more than the corner between neighbours."""
     n = len(corners)
     a, b, c, d = corners[i], corners[(i + 1) % n], corners[j], corners[(j + 1) % n]
@@ -113,7 +117,7 @@ def meet(i, j, corners):
     return not apart and turn(a, b, c) * turn(a, b, d) <= 0 and turn(c, d, a) * turn(c, d, b) <= 0
 
 
-def turn(a, b, c):
-    """1 where the way from `a` over `b` to `c` turns left, -1 where it turns right, 0 straight."""
+def turn(a: Point, b: Point, c: Point) -> int:
+    """Tell how the way from `a` over `b` to `c` turns: 1 left, -1 right, 0 not at all."""
     area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     return (area > 0) - (area < 0)

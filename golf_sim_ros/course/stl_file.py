@@ -26,13 +26,12 @@ STL_TRIANGLE = np.dtype([('normal', '<f4', 3), ('corners', '<f4', (3, 3)), ('att
 WORDS = re.compile(rb'\b(facet|vertex)\b', re.IGNORECASE)
 
 
-def stl(raw):
+def stl(raw: bytes) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Vertices, three a triangle, faces and notes of an STL file."""
     count = int.from_bytes(raw[80:STL_HEAD], 'little')
     size = STL_HEAD + count * STL_TRIANGLE.itemsize
-    notes = []
-    # In a text these four bytes are letters: the number would be of half a billion triangles, or
-    # more.
+    notes: list[str] = []
+    # In a text these four bytes are letters: half a billion triangles, or more.
     if STL_HEAD <= len(raw) and size <= len(raw):
         corners = np.frombuffer(raw, STL_TRIANGLE, count, STL_HEAD)['corners']
         if count and len(raw) > size:
@@ -47,7 +46,7 @@ def stl(raw):
     return vertices, np.arange(len(vertices)).reshape(-1, 3), notes
 
 
-def is_text(raw):
+def is_text(raw: bytes) -> bool:
     """Whether it says ``solid``, in whatever letters, or has facets without saying so."""
     text = decoded(raw[:1000]).lstrip().lower()
     return (
@@ -57,7 +56,7 @@ def is_text(raw):
     )
 
 
-def stl_text(text):
+def stl_text(text: str) -> np.ndarray:
     """Corners (m, 3, 3) of an STL file in text."""
     found = []
     for number, line in enumerate(text.splitlines(), 1):

@@ -12,8 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Terrain as surveys give it: ESRI ASCII grids read here, GeoTIFF by rasterio where it is installed."""
+"""Terrain as surveys give it.
 
+ESRI ASCII grids are read here, GeoTIFF by rasterio where it is installed.
+"""
+
+from typing import Any
 import warnings
 
 import numpy as np
@@ -59,7 +63,7 @@ BAND_UNITS = {
 }
 
 
-def esri(raw, unit):
+def esri(raw: bytes, unit: str | None) -> Grid:
     """`Grid` of an ESRI ASCII grid, .asc; `unit` as the course says it, or None."""
     said, values = esri_head(decoded(raw).split())
     try:
@@ -88,16 +92,17 @@ def esri(raw, unit):
     return Grid(heights, heights == none, corner, dx)
 
 
-def first_height(said, axis, size):
-    """x or y of the first column or row: the middle of its cells."""
+def first_height(said: dict[str, str], axis: str, size: float) -> float:
+    """Find x or y of the first column or row: the middle of its cells."""
     if f'{axis}llcenter' in said:
         return float(said[f'{axis}llcenter'])
     return float(said[f'{axis}llcorner']) + 0.5 * size
 
 
-def esri_head(words):
+def esri_head(words: list[str]) -> tuple[dict[str, str], list[str]]:
     """Values of the header by name, and the words after it."""
-    said, place = {}, 0
+    said: dict[str, str] = {}
+    place = 0
     while place + 1 < len(words) and words[place].lower() in NAMES:
         said[words[place].lower()] = words[place + 1]
         place += 2
@@ -106,7 +111,7 @@ def esri_head(words):
     return said, words[place:]
 
 
-def check_square(dx, dy):
+def check_square(dx: float, dy: float) -> None:
     """Refuse cells that are no squares."""
     if not (0 < dx < np.inf and abs(dx - dy) <= SQUARE * dx):
         raise CourseError(
@@ -115,13 +120,13 @@ def check_square(dx, dy):
         )
 
 
-def utm(longitude, latitude):
+def utm(longitude: float, latitude: float) -> int:
     """EPSG code of the UTM zone of a place in degrees."""
     zone = int((longitude + 180.0) // 6.0) % 60 + 1
     return (32600 if latitude >= 0 else 32700) + zone
 
 
-def geotiff(raw, unit):
+def geotiff(raw: bytes, unit: str | None) -> Grid:
     """`Grid` of a GeoTIFF file; `unit` as the course says it, or None."""
     try:
         import rasterio
@@ -140,7 +145,7 @@ def geotiff(raw, unit):
         raise CourseError(f'cannot be read by rasterio: {reason}') from None
 
 
-def grid_of(file):
+def grid_of(file: Any) -> Grid:
     """`Grid` of a file that rasterio has opened."""
     if file.count != 1:
         raise CourseError(f'has {file.count} bands, and a height map has one')
@@ -148,10 +153,9 @@ def grid_of(file):
         raise CourseError(
             f'has {file.width} x {file.height} heights, over {MOST}: cut out what is played on'
         )
-    if not np.issubdtype(np.dtype(file.dtypes[0]), np.integer) and not file.dtypes[0].startswith(
-        'float'
-    ):
-        raise CourseError(f'must hold numbers, not {file.dtypes[0]}')
+    kind = file.dtypes[0]
+    if not kind.startswith('float') and not np.issubdtype(np.dtype(kind), np.integer):
+        raise CourseError(f'must hold numbers, not {kind}')
     raw = file.read(1)
     heights = raw.astype(float) * file.scales[0] + file.offsets[0]
     missing = file.read_masks(1) == 0
@@ -178,7 +182,7 @@ def grid_of(file):
     )
 
 
-def unit_of(crs):
+def unit_of(crs: Any) -> str | None:
     """Name of the unit of a projection, or None where there is none."""
     if crs is None:
         return None

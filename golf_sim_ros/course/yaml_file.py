@@ -12,11 +12,17 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""YAML files, read strictly: no key twice, one line for every error, '1e-3' is a number, '1:30' is none."""
+"""YAML files, read strictly.
 
+No key twice, one line for every error, '1e-3' is a number, '1:30' is none.
+"""
+
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 import gc
+from os import PathLike
 import re
+from typing import Any
 
 import yaml
 
@@ -36,7 +42,10 @@ FLOAT = re.compile(
 REPLACED = {'tag:yaml.org,2002:int': INT, 'tag:yaml.org,2002:float': FLOAT}
 
 
-class Loader(getattr(yaml, 'CSafeLoader', yaml.SafeLoader)):
+BASE: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)
+
+
+class Loader(BASE):
     """PyYAML's safe loader; YAML 1.1 wants a point in every float, people don't."""
 
     yaml_implicit_resolvers = {
@@ -44,7 +53,7 @@ class Loader(getattr(yaml, 'CSafeLoader', yaml.SafeLoader)):
         for first, found in yaml.SafeLoader.yaml_implicit_resolvers.items()
     }
 
-    def construct_object(self, node, deep=False):
+    def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:
         """Value of `node`; CourseError with its line where it has none."""
         try:
             return super().construct_object(node, deep)
@@ -62,7 +71,7 @@ class Loader(getattr(yaml, 'CSafeLoader', yaml.SafeLoader)):
 Loader.add_implicit_resolver('tag:yaml.org,2002:float', NUMBER, list('-+.0123456789'))
 
 
-def read_yaml(path):
+def read_yaml(path: str | PathLike[str]) -> tuple[bytes, Any]:
     """Bytes and content of the YAML file at `path`.
 
     Raises
@@ -83,7 +92,7 @@ def read_yaml(path):
         raise CourseError(f'{path}: is not valid YAML: {_one_line(error)}') from None
 
 
-def parsed(raw):
+def parsed(raw: bytes) -> Any:
     """Content of a YAML document; None where it is empty."""
     loader = Loader(raw)
     try:
@@ -98,8 +107,11 @@ def parsed(raw):
 
 
 @contextmanager
-def uncollected():
-    """Context without garbage collection, which would go through all of a large file again and again."""
+def uncollected() -> Iterator[None]:
+    """Work without garbage collection.
+
+    It would go through all of a large file again and again.
+    """
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -109,16 +121,20 @@ def uncollected():
             gc.enable()
 
 
-def _children(node):
+def _children(node: yaml.Node) -> list[yaml.Node]:
     """Nodes directly below `node`."""
     if isinstance(node, yaml.MappingNode):
         return [child for pair in node.value for child in pair]
     return node.value if isinstance(node, yaml.SequenceNode) else []
 
 
-def _refuse_repeated_keys(root):
-    """Raise where a mapping below the node `root` has a key twice: YAML would keep the last in silence."""
-    left, known = [root], set()
+def _refuse_repeated_keys(root: yaml.Node) -> None:
+    """Raise where a mapping below the node `root` has a key twice.
+
+    YAML would keep the last in silence.
+    """
+    left = [root]
+    known: set[int] = set()
     while left:
         node = left.pop()
         if id(node) in known:
@@ -129,8 +145,8 @@ def _refuse_repeated_keys(root):
         left += _children(node)
 
 
-def _refuse_repeated(keys):
-    lines = {}
+def _refuse_repeated(keys: Iterable[yaml.Node]) -> None:
+    lines: dict[Any, int] = {}
     for key in keys:
         if isinstance(key, yaml.ScalarNode):
             line = key.start_mark.line + 1
@@ -142,9 +158,13 @@ def _refuse_repeated(keys):
             lines[key.value] = line
 
 
-def _refuse_explosions(root):
-    """Raise where aliases make a small file huge, or endless: what they name is read where it is used."""
-    sizes, left = {}, [(root, False)]
+def _refuse_explosions(root: yaml.Node) -> None:
+    """Raise where aliases make a small file huge, or endless.
+
+    What they name is read wherever it is used.
+    """
+    sizes: dict[int, int] = {}
+    left = [(root, False)]
     while left:
         node, done = left.pop()
         if done:
@@ -159,16 +179,16 @@ def _refuse_explosions(root):
         )
 
 
-def _written(node):
+def _written(node: yaml.Node) -> str:
     """Text of `node` for a message."""
     return node.value if isinstance(node, yaml.ScalarNode) else '...'
 
 
-def _explained(error):
+def _explained(error: Exception) -> str:
     mark = getattr(error, 'problem_mark', None) or getattr(error, 'context_mark', None)
     where = f'line {mark.line + 1}: ' if mark else ''
     return f'{where}is not valid YAML: {_one_line(getattr(error, "problem", None) or error)}'
 
 
-def _one_line(error):
+def _one_line(error: object) -> str:
     return ' '.join(str(error).split())

@@ -19,6 +19,7 @@ RViz and pages use as well, need numpy alone.
 """
 
 from importlib import import_module
+from typing import Any
 
 _FROM = {
     'draw': 'play_picture',
@@ -31,8 +32,8 @@ _FROM = {
 __all__ = ['DrawnShot', 'draw', 'drawn', 'picture', 'recorded']
 
 
-def __getattr__(name):
-    """What this package offers, from the module that has it."""
+def __getattr__(name: str) -> Any:
+    """Get what this package offers from the module that has it."""
     if name not in _FROM:
         raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
     return getattr(import_module(f'.{_FROM[name]}', __name__), name)

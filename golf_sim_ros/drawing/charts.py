@@ -14,13 +14,17 @@
 
 """Speed, height and spin over the time since the strike."""
 
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
 import numpy as np
 
+from .shots import DrawnShot
 from .style import bare, colors, GRID
 from .views import path, touches
 
 
-def charts(axes, shots):
+def charts(axes: Sequence[Axes], shots: Sequence[DrawnShot]) -> None:
     """Draw the three charts into three `axes`."""
     for place, (title, amount, at_bounce) in zip(axes, CHARTS):
         for shot, color in zip(shots, colors(len(shots))):
@@ -42,17 +46,17 @@ def charts(axes, shots):
         place.set_ylim(low - 0.04 * (high - low) if low < 0.0 else 0.0)
 
 
-def speed(shot):
+def speed(shot: DrawnShot) -> np.ndarray:
     """Speed of the ball [m/s]."""
     return np.linalg.norm(shot.velocities, axis=1)
 
 
-def height(shot):
+def height(shot: DrawnShot) -> np.ndarray:
     """Height over the strike [m]."""
     return shot.positions[:, 2] - shot.positions[0, 2]
 
 
-def spin(shot):
+def spin(shot: DrawnShot) -> np.ndarray:
     """Rate of spin [rad/s]."""
     return np.linalg.norm(shot.spins, axis=1)
 

@@ -14,20 +14,26 @@
 
 """The course under a play: from above, and cut open along the paths."""
 
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
 import numpy as np
 
 from .relief import grid_relief, relief
+from .shots import DrawnShot
+from .window import Window
 from .zone_triangles import in_region
+from ..physics import Course
 from ..physics.scene.kernel_model import materials
 
 LIGHT = 2.5  # how much brighter a slope of 1 is that rises towards the right and up
 SHADE = 0.22  # at most so much brighter or darker
 NOTHING = (1.0, 1.0, 1.0)
-# colour of water, and how much of the ground shines through
-WATER, CLEAR = (0.20, 0.45, 0.70), 0.25
+WATER = (0.20, 0.45, 0.70)
+CLEAR = 0.25  # how much of the ground shines through water
 
 
-def paint(axes, course, window, pixels):
+def paint(axes: Axes, course: Course, window: Window, pixels: int) -> set[int]:
     """Paint the ground seen from above in its materials' colours, lit from the upper left.
 
     Parameters
@@ -59,13 +65,18 @@ def paint(axes, course, window, pixels):
     return set(numbers.flat) - {-1}
 
 
-def tints(course, numbers):
+def tints(course: Course, numbers: np.ndarray) -> np.ndarray:
     """Colours of materials by number, (..., 3)."""
     return np.array([*(material.color for material in materials(course)), NOTHING])[numbers]
 
 
-def flooded(colors, course, heights, x, y):
-    """`colors` (ny, nx, 3) of a ground with `heights` (ny, nx) over `x`, `y`, blue where water covers it."""
+def flooded(
+    colors: np.ndarray, course: Course, heights: np.ndarray, x: np.ndarray, y: np.ndarray
+) -> np.ndarray:
+    """`colors` (ny, nx, 3) of a ground, blue where water covers it.
+
+    It has `heights` (ny, nx) over `x`, `y`.
+    """
     x, y = np.meshgrid(x, y)
     for pond in course.water:
         over = in_region(pond.polygon, pond.cut, x.ravel(), y.ravel()).reshape(x.shape)
@@ -74,7 +85,7 @@ def flooded(colors, course, heights, x, y):
     return colors
 
 
-def lit(heights, side):
+def lit(heights: np.ndarray, side: float) -> np.ndarray:
     """Brightness of a ground whose `heights` are `side` apart, (..., 1)."""
     if min(heights.shape) < 2:
         return np.ones((*heights.shape, 1))
@@ -83,7 +94,9 @@ def lit(heights, side):
     return 1.0 + np.clip(light, -SHADE, SHADE)[..., np.newaxis]
 
 
-def cut_open(axes, course, shots, along, places):
+def cut_open(
+    axes: Axes, course: Course, shots: Sequence[DrawnShot], along: int, places: np.ndarray
+) -> np.ndarray:
     """Fill the ground below the paths, seen from the side; return its heights.
 
     Parameters
@@ -114,8 +127,8 @@ def cut_open(axes, course, shots, along, places):
     return heights
 
 
-def middle(shots, along, places):
-    """How far aside the paths are at `places` along, in the mean of those that pass there."""
+def middle(shots: Sequence[DrawnShot], along: int, places: np.ndarray) -> np.ndarray:
+    """Find how far aside the paths are at `places` along, in the mean of those that pass there."""
     passing = np.full((len(shots), len(places)), np.nan)
     for row, shot in zip(passing, shots):
         order = np.argsort(shot.positions[:, along], kind='stable')

@@ -14,6 +14,10 @@
 
 """Picture of a play, and where its parts go."""
 
+from collections.abc import Iterable, Sequence
+from os import PathLike
+
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -21,16 +25,25 @@ from matplotlib.ticker import MaxNLocator
 
 from . import table, wind
 from .charts import charts
-from .shots import detailed
+from .shots import detailed, DrawnShot
 from .style import bare, INK, PALE, SMALL, TITLE
 from .views import above, from_side
-from .window import near_hole, window
+from .window import near_hole, Window, window
+from ..physics import Course
 from ..physics.scene.kernel_model import materials
 
+Box = tuple[float, float, float, float]  # left, top, width, height
+
 # Inches, all of them.
-WIDTH, LEFT, RIGHT, TOP, BOTTOM = 12.0, 0.7, 0.3, 0.98, 0.2
-SIDE, CHARTS = 1.75, 2.1  # heights
-KEY, GAP = 0.85, 0.6  # below the view from above, and below the charts
+WIDTH = 12.0
+LEFT = 0.7
+RIGHT = 0.3
+TOP = 0.98
+BOTTOM = 0.2
+SIDE = 1.75  # height
+CHARTS = 2.1  # height
+KEY = 0.85  # below the view from above
+GAP = 0.6  # below the charts
 APART = 0.62  # between charts
 ROSE = 0.75
 INNER = WIDTH - LEFT - RIGHT
@@ -43,13 +56,21 @@ MARKS = (
 )
 
 
-def draw(path, shots, course=None, title='', dpi=150):
+def draw(
+    path: str | PathLike[str],
+    shots: Sequence[DrawnShot],
+    course: Course | None = None,
+    title: str = '',
+    dpi: int = 150,
+) -> None:
     """Write the `picture` of a play to `path`, in the format that its name ends with."""
     picture(shots, course, title, dpi).savefig(path, dpi=dpi)
 
 
-def picture(shots, course=None, title='', dpi=150):
-    """Picture of a play.
+def picture(
+    shots: Sequence[DrawnShot], course: Course | None = None, title: str = '', dpi: int = 150
+) -> Figure:
+    """Make the picture of a play.
 
     Parameters
     ----------
@@ -76,7 +97,8 @@ def picture(shots, course=None, title='', dpi=150):
     if not shots:
         raise ValueError('there is no shot to draw')
     shots = [detailed(shot) for shot in shots]
-    seen, near = window(shots, course), near_hole(shots, course, window(shots, course))
+    seen = window(shots, course)
+    near = near_hole(shots, course, seen)
     boxes = arranged(INNER * seen.height / seen.width, near is not None, table.height(shots))
     figure = Figure(figsize=(WIDTH, boxes['table'][1] + boxes['table'][3] + BOTTOM))
     axes = {name: axes_in(figure, name, box) for name, box in boxes.items()}
@@ -90,7 +112,7 @@ def picture(shots, course=None, title='', dpi=150):
     return figure
 
 
-def arranged(plan, hole, rows):
+def arranged(plan: float, hole: bool, rows: float) -> dict[str, Box]:
     """Place of each part: left, top, width, height, in inches from the upper left corner."""
     above_top = TOP + SIDE + 0.35
     top = above_top + plan + KEY
@@ -104,14 +126,21 @@ def arranged(plan, hole, rows):
     return {**boxes, 'table': (LEFT, top + CHARTS + GAP, INNER, rows)}
 
 
-def axes_in(figure, label, box):
-    """Axes in a `box` of inches from the upper left corner."""
+def axes_in(figure: Figure, label: str, box: Box) -> Axes:
+    """Add axes in a `box` of inches from the upper left corner."""
     (width, height), (left, top, wide, high) = figure.get_size_inches(), box
     place = left / width, 1.0 - (top + high) / height, wide / width, high / height
     return figure.add_axes(place, label=label)
 
 
-def views(axes, boxes, shots, course, seen, dpi):
+def views(
+    axes: dict[str, Axes],
+    boxes: dict[str, Box],
+    shots: Sequence[DrawnShot],
+    course: Course | None,
+    seen: Window,
+    dpi: int,
+) -> None:
     """Draw what `seen`, a Window, shows, from the side and from above."""
     from_side(axes['side'], shots, course, seen, boxes['side'][2:])
     axes['side'].tick_params(labelbottom=seen.height > seen.width)
@@ -120,16 +149,18 @@ def views(axes, boxes, shots, course, seen, dpi):
     drawn_like(axes['above'], boxes['above'][3], course, numbers)
 
 
-def at_hole(axes, box, shots, course, near, dpi):
+def at_hole(
+    axes: Axes, box: Box, shots: Sequence[DrawnShot], course: Course | None, near: Window, dpi: int
+) -> None:
     """Draw the surroundings of the hole."""
     above(axes, shots, course, near, box[2:], round(CHARTS * dpi))
     bare(axes, 'At the hole', 'x [m]', '')
     axes.xaxis.set_major_locator(MaxNLocator(4))
 
 
-def drawn_like(axes, height, course, numbers):
+def drawn_like(axes: Axes, height: float, course: Course | None, numbers: Iterable[int]) -> None:
     """Explain colours and marks below `axes`, `height` inches high."""
-    seen = [materials(course)[i] for i in sorted(numbers)]
+    seen = [materials(course)[i] for i in sorted(numbers)] if course else []
     key = [Patch(facecolor=material.color, label=material.name) for material in seen]
     for label, mark, fill, edge in MARKS[: len(MARKS) if course else -1]:
         key.append(
@@ -159,7 +190,7 @@ def drawn_like(axes, height, course, numbers):
     )
 
 
-def headed(figure, shots, course, title):
+def headed(figure: Figure, shots: Sequence[DrawnShot], course: Course | None, title: str) -> None:
     """Write what is drawn at the top."""
     played = f'{len(shots)} shot' + 's' * (len(shots) > 1)
     seconds = sum(shot.result.duration for shot in shots)

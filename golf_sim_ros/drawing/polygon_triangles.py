@@ -15,11 +15,22 @@
 """Triangulation of polygons with holes."""
 
 from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from math import isclose
 
+Point = Sequence[float]  # x, y
+Polygon = Sequence[Point]
+Edge = tuple[Point, Point, int]  # from low to high, and the number of its polygon
+Crossing = tuple[float, float, float, int]  # of an edge and a slab: see `slabs`
 
-def triangles(outline, cuts=(), window=None, regions=()):
-    """Triangles, tuples of three (x, y) counterclockwise, that cover `outline` except for `cuts`.
+
+def triangles(
+    outline: Polygon,
+    cuts: Iterable[Polygon] = (),
+    window: Polygon | None = None,
+    regions: Iterable[tuple[Polygon, Sequence[Polygon]]] = (),
+) -> list[tuple[Point, Point, Point]]:
+    r"""Triangles, tuples of three (x, y) counterclockwise, that cover `outline` but not `cuts`.
 
     With a `window`, only what lies in that polygon, too. `regions` are cuts with holes: pairs of
     an outline and a sequence of polygons.
@@ -28,9 +39,9 @@ def triangles(outline, cuts=(), window=None, regions=()):
     edges cross, so the parts between neighbouring edges are trapezoids, each all inside or all
     outside::
 
-        y1 ----/----\\--------/---
-              / kept \\  cut  / kept
-        y0 --/--------\\----/-----
+        y1 ----/----\--------/---
+              / kept \  cut  / kept
+        y0 --/--------\----/-----
 
     Polygons are tuples of (x, y) in either direction; they may be concave and overlap each other.
     """
@@ -38,7 +49,7 @@ def triangles(outline, cuts=(), window=None, regions=()):
         [outline, *([window] if window else [])],
         [*((cut, ()) for cut in cuts), *((cut, holes) for cut, holes in regions)],
     )
-    edges = [
+    edges: list[Edge] = [
         (*upward(edge), owner)
         for owner, polygon in enumerate(state.polygons)
         for edge in sides(polygon)
@@ -60,18 +71,27 @@ class Inside:
     it may be.
     """
 
-    def __init__(self, kept, gone):
+    def __init__(
+        self, kept: Sequence[Polygon], gone: Iterable[tuple[Polygon, Sequence[Polygon]]]
+    ) -> None:
         self.kept = len(kept)
         self.polygons = [tuple(polygon) for polygon in kept]
-        self.region = [None] * self.kept  # of each polygon, the number of the pair it belongs to
+        # Of each polygon, the number of the pair it belongs to.
+        self.region: list[int | None] = [None] * self.kept
         for number, (cut, holes) in enumerate(gone):
             self.polygons += [tuple(cut), *(tuple(hole) for hole in holes)]
             self.region += [number] * (1 + len(holes))
         self.first = {number: owner for owner, number in reversed(list(enumerate(self.region)))}
 
-    def kept_of(self, through):
-        """Pairs of neighbouring edges of a slab, between which it is kept: x at its low, at its high end."""
-        odd, holes, covered, kept = set(), Counter(), set(), 0
+    def kept_of(self, through: list[Crossing]) -> Iterator[tuple[list[float], list[float]]]:
+        """Pairs of neighbouring edges of a slab, between which it is kept.
+
+        Of each edge x at its low and at its high end.
+        """
+        odd: set[int] = set()
+        covered: set[int] = set()
+        holes: Counter[int] = Counter()
+        kept = 0
         for (_, *left, owner), (_, *right, _) in zip(through, through[1:]):
             odd ^= {owner}
             step, number = (1 if owner in odd else -1), self.region[owner]
@@ -90,19 +110,20 @@ class Inside:
                 yield left, right
 
 
-def sides(polygon):
+def sides(polygon: Polygon) -> list[tuple[Point, Point]]:
     """Edges of `polygon`, pairs of corners."""
-    return list(zip(polygon, polygon[1:] + polygon[:1]))
+    return list(zip(polygon, [*polygon[1:], *polygon[:1]]))
 
 
-def upward(edge):
+def upward(edge: tuple[Point, Point]) -> tuple[Point, Point]:
     """`edge` from its lower to its upper end."""
-    return edge if edge[0][1] < edge[1][1] else edge[::-1]
+    low, high = edge
+    return (low, high) if low[1] < high[1] else (high, low)
 
 
-def crossings(edges):
-    """The y at which two of `edges`, from low to high, cross."""
-    active = []
+def crossings(edges: Iterable[Edge]) -> Iterator[float]:
+    """Yield the y at which two of `edges`, from low to high, cross."""
+    active: list[Edge] = []
     for edge in sorted(edges, key=lambda edge: edge[0][1]):
         a, b, _ = edge
         active = [other for other in active if other[1][1] > a[1]]
@@ -114,39 +135,37 @@ def crossings(edges):
             if bend == 0.0:
                 continue
             part = ((c[0] - a[0]) * (d[1] - c[1]) - (c[1] - a[1]) * (d[0] - c[0])) / bend
-            other = ((c[0] - a[0]) * (b[1] - a[1]) - (c[1] - a[1]) * (b[0] - a[0])) / bend
-            if 0.0 < part < 1.0 and 0.0 < other < 1.0:
+            theirs = ((c[0] - a[0]) * (b[1] - a[1]) - (c[1] - a[1]) * (b[0] - a[0])) / bend
+            if 0.0 < part < 1.0 and 0.0 < theirs < 1.0:
                 yield a[1] + part * (b[1] - a[1])
         active.append(edge)
 
 
-def slabs(edges, levels):
+def slabs(
+    edges: Iterable[Edge], levels: list[float]
+) -> Iterator[tuple[float, float, list[Crossing]]]:
     """Each slab between two neighbours of `levels`, and the edges through it from left to right.
 
     An edge is (x in the middle of the slab, x at its low end, x at its high end, owner).
     """
-    begin, waiting, active = 0, sorted(edges, key=lambda edge: edge[0][1]), []
+    begin, waiting = 0, sorted(edges, key=lambda edge: edge[0][1])
+    active: list[Edge] = []
     for low, high in zip(levels, levels[1:]):
         while begin < len(waiting) and waiting[begin][0][1] <= low:
             active.append(waiting[begin])
             begin += 1
         active = [edge for edge in active if edge[1][1] >= high]
-        yield (
-            low,
-            high,
-            sorted(
-                (at(edge, 0.5 * (low + high)), at(edge, low), at(edge, high), edge[2])
-                for edge in active
-            ),
-        )
+        middle = 0.5 * (low + high)
+        through = [(at(edge, middle), at(edge, low), at(edge, high), edge[2]) for edge in active]
+        yield low, high, sorted(through)
 
 
-def at(edge, y):
-    """The x of `edge` at `y`."""
+def at(edge: Edge, y: float) -> float:
+    """Find the x of `edge` at `y`."""
     (x0, y0), (x1, y1), *_ = edge
     return x0 + (x1 - x0) * (y - y0) / (y1 - y0)
 
 
-def halves(a, b, c, d):
-    """The two triangles of a trapezoid, or the one that is left where a side has no length."""
+def halves(a: Point, b: Point, c: Point, d: Point) -> list[tuple[Point, Point, Point]]:
+    """Part a trapezoid into two triangles, or the one that is left where a side has no length."""
     return [corners for corners in ((a, b, c), (a, c, d)) if len(set(corners)) == 3]

@@ -14,19 +14,22 @@
 
 """Shots to be drawn, from the recording of a play."""
 
+from collections.abc import Mapping, Sequence
+from typing import Any
+
 import numpy as np
 
 from .shots import DrawnShot
 from ..physics.result import Collision, Result
-from ..recording.bag import BagError
+from ..recording.bag import BagError, Recording, Track
+from ..recording.journal_format import Entry
 
-# s: durations in results, from which times of strikes are reckoned, are rounded to 1e-4
-ROUNDED = 2e-4
+ROUNDED = 2e-4  # s: durations in results, which tell when strikes were, are rounded to 1e-4
 AT = 2e-4  # m: a pose is at a place of a result, which is rounded to 1e-4
 
 
-def recorded(recording):
-    """Shots of a recording.
+def recorded(recording: Recording) -> list[DrawnShot]:
+    """Make shots to be drawn of a recording.
 
     Parameters
     ----------
@@ -60,8 +63,8 @@ def recorded(recording):
     return [shot for shot in shots if len(shot.times) > 1]
 
 
-def frozen(kind, told):
-    """A `kind` of record of the values in `told`, with tuples for lists."""
+def frozen(kind: Any, told: Mapping[str, Any]) -> Any:
+    """Make a `kind` of record of the values in `told`, with tuples for lists."""
     values = {name: told[name] for name in kind._fields}
     return kind(
         **{
@@ -71,34 +74,37 @@ def frozen(kind, told):
     )
 
 
-def clock(recording, results):
-    """ROS time [ns] of simulated time 0.
+def clock(recording: Recording, results: Sequence[Result]) -> int:
+    """Find the ROS time [ns] of simulated time 0.
 
     Without a journal it is not recorded. Then it is reckoned from the first pose after each shot,
     which is published at the end or some milliseconds later.
     """
+    known = recording.start or 0
     if recording.config:
-        return recording.start
+        return known
     starts = [
         recording.tracks[result.ball].times[rest] - round(1e9 * result.time)
         for result in results
         if result.ball in recording.tracks
         for rest in rests(recording.tracks[result.ball], result.position)
     ]
-    return min(starts, default=recording.start, key=lambda start: abs(start - np.median(starts)))
+    return min(starts, default=known, key=lambda start: abs(start - np.median(starts)))
 
 
-def rests(track, place):
-    """Number of the first pose at `place`, coming from elsewhere.
+def rests(track: Track, place: Sequence[float]) -> np.ndarray:
+    """Find the number of the first pose at `place`, coming from elsewhere.
 
-    None if the ball was not seen there.
+    An array of one, or of none if the ball was not seen there.
     """
     there = np.linalg.norm(track.positions - place, axis=1) < AT
     came = np.flatnonzero(there[1:] & ~there[:-1]) + 1
     return came[:1]
 
 
-def shot_of(recording, result, collisions, start):
+def shot_of(
+    recording: Recording, result: Result, collisions: Sequence[Collision], start: int
+) -> DrawnShot:
     """`DrawnShot` of the recorded shot that ended with `result`.
 
     Simulated time began at `start` [ns].
@@ -114,7 +120,7 @@ def shot_of(recording, result, collisions, start):
     return DrawnShot(result, tuple(hits), *rows, wind(recording, strike, begin, start))
 
 
-def strike_of(recording, result):
+def strike_of(recording: Recording, result: Result) -> Entry | None:
     """Entry in the journal for the strike that ended with `result`, or None."""
     return next(
         (
@@ -126,8 +132,10 @@ def strike_of(recording, result):
     )
 
 
-def path(track, result, begin, start):
-    """Times, positions, velocities and spins from the strike at `begin` to the end."""
+def path(
+    track: Track, result: Result, begin: float, start: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Cut times, positions, velocities and spins from the strike at `begin` to the end."""
     stamps, of_pose, of_twist = np.intersect1d(track.times, track.twist_times, return_indices=True)
     seconds = 1e-9 * (stamps - start)
     rows = np.column_stack(
@@ -150,7 +158,7 @@ def path(track, result, begin, start):
     return whole[:, 0], whole[:, 1:4], whole[:, 4:7], whole[:, 7:]
 
 
-def wind(recording, strike, begin, start):
+def wind(recording: Recording, strike: Entry | None, begin: float, start: int) -> np.ndarray:
     """Rows of a time and the wind from then on: from the journal, else from the topic `wind`."""
     if strike and recording.config:
         rate = recording.config['parameters']['rate']

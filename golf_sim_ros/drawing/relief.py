@@ -14,15 +14,20 @@
 
 """The ground from above, at many places at once."""
 
+from typing import Any
+
 import numpy as np
 
+from ..physics import Course
 from ..physics.geometry import surfaces
 from ..physics.scene import kernel_model
 
 COARSE = 4  # places of a grid to one that is always looked at
 
 
-def look_down(ground, xs, ys, heights, numbers):
+def look_down(
+    ground: Any, xs: np.ndarray, ys: np.ndarray, heights: np.ndarray, numbers: np.ndarray
+) -> None:
     """Find the highest ground at every place.
 
     Writes heights and numbers of materials; -1 without ground.
@@ -33,7 +38,7 @@ def look_down(ground, xs, ys, heights, numbers):
         numbers[i] = surfaces.material_of(ground, part, (xs[i], ys[i], z)) if part >= 0 else -1
 
 
-def relief(course, x, y):
+def relief(course: Course, x: Any, y: Any) -> tuple[np.ndarray, np.ndarray]:
     """Heights and materials of the highest ground at many places.
 
     Parameters
@@ -57,7 +62,7 @@ def relief(course, x, y):
     return heights.reshape(x.shape), numbers.reshape(x.shape)
 
 
-def grid_relief(course, x, y):
+def grid_relief(course: Course, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """`relief` at the places of a grid, looked at closely only where the material changes.
 
     Elsewhere heights are interpolated between every fourth place: what is smaller than that, and
@@ -89,12 +94,12 @@ def grid_relief(course, x, y):
     return fine, kinds
 
 
-def coarse(count):
+def coarse(count: int) -> np.ndarray:
     """Every fourth of so many places, and the last."""
     return np.unique([*range(0, count, COARSE), count - 1])
 
 
-def near_edges(numbers):
+def near_edges(numbers: np.ndarray) -> np.ndarray:
     """Whether a block of the grid, or one beside it, has several `numbers` at its corners."""
     padded = np.pad(numbers, 2, mode='edge')
     windows = np.lib.stride_tricks.sliding_window_view(padded, (4, 4))[:-1, :-1]

@@ -14,13 +14,13 @@
 
 """Shots to be drawn, from a simulation or a recording."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..physics.mechanics.vector import ZERO
-from ..physics.result import Result
-from ..physics.simulation import checked_gusts
+from ..physics.result import Collision, Result
+from ..physics.simulation import checked_gusts, Play
 
 
 class DrawnShot(NamedTuple):
@@ -38,7 +38,7 @@ class DrawnShot(NamedTuple):
     """
 
     result: Result
-    collisions: tuple
+    collisions: tuple[Collision, ...]
     times: np.ndarray
     positions: np.ndarray
     velocities: np.ndarray
@@ -46,13 +46,13 @@ class DrawnShot(NamedTuple):
     wind: np.ndarray
 
     @property
-    def flew(self):
+    def flew(self) -> bool:
         """Whether the ball left the ground when it was struck."""
         return self.result.apex > 0.0
 
 
-def drawn(play, wind=ZERO):
-    """`DrawnShot` of a `golf_sim_ros.physics.Play`; `wind` is what was given to `simulate`."""
+def drawn(play: Play, wind: Any = ZERO) -> DrawnShot:
+    """Make the `DrawnShot` of a `Play`; `wind` is what was given to `simulate`."""
     return DrawnShot(
         play.result,
         play.collisions,
@@ -64,14 +64,14 @@ def drawn(play, wind=ZERO):
     )
 
 
-def detailed(shot):
+def detailed(shot: DrawnShot) -> DrawnShot:
     """`shot` with two more rows for each collision, just before and just after it."""
     hits = [hit for hit in shot.collisions if shot.times[0] <= hit.time <= shot.times[-1]]
     if not hits:
         return shot
     places = np.searchsorted(shot.times, np.repeat([hit.time for hit in hits], 2))
 
-    def with_hits(rows, before, after):
+    def with_hits(rows: np.ndarray, before: str, after: str) -> np.ndarray:
         more = [getattr(hit, name) for hit in hits for name in (before, after)]
         return np.insert(rows, places, more, axis=0)
 

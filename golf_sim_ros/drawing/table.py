@@ -14,39 +14,45 @@
 
 """Table of the results of the shots."""
 
+from collections.abc import Callable, Sequence
 from math import degrees, hypot
+from typing import Any
 
+from matplotlib.axes import Axes
 import numpy as np
 
 from . import wind
+from .shots import DrawnShot
 from .style import colors, GRID, INK, PALE, SMALL
+from ..physics import Result
 
 ROW = 0.22  # inches
 ENDINGS = {'at_rest': 'at rest', 'out_of_bounds': 'out of bounds', 'time_limit': 'time limit'}
 
 
-def length(metres):
+def length(metres: float | None) -> str:
     """Text of a length."""
     return '' if metres is None else f'{metres:.2f}'
 
 
-def aside(metres):
-    """How far to the left or right."""
+def aside(metres: float) -> str:
+    """Say how far to the left or right."""
     amount = length(abs(metres))
     return amount if float(amount) == 0.0 else f'{amount} {"L" if metres > 0.0 else "R"}'
 
 
-def flight(value):
-    """Function that gives the text of a value of a shot, or a dash where the ball did not fly."""
+def flight(value: Callable[[Result], str]) -> Callable[[DrawnShot], str]:
+    """Make the function that writes a value of a shot, or a dash where the ball did not fly."""
     return lambda shot: value(shot.result) if shot.flew else '–'
 
 
-# columns of words stand to the left, those of numbers to the right
+# Columns of words stand to the left, those of numbers to the right.
 WORDS = ('ball', 'ended', 'lie')
 GAP = 0.015
 
 # Heading, unit, width against the others, text of a shot.
-COLUMNS = (
+Column = tuple[str, str, float, Callable[[DrawnShot], str]]
+COLUMNS: tuple[Column, ...] = (
     ('shot', '', 0.7, lambda s: str(s.result.shot)),
     ('ball', '', 1.0, lambda s: s.result.ball),
     ('ended', '', 1.5, lambda s: ENDINGS.get(s.result.status, s.result.status)),
@@ -66,12 +72,12 @@ COLUMNS = (
 )
 
 
-def height(shots):
+def height(shots: Sequence[DrawnShot]) -> float:
     """Inches that a table of `shots` takes."""
     return ROW * (len(shots) + 1.5)
 
 
-def table(axes, shots):
+def table(axes: Axes, shots: Sequence[DrawnShot]) -> None:
     """Write a row for each of `shots` into `axes`."""
     axes.set_axis_off()
     axes.set(xlim=(0.0, 1.0), ylim=(len(shots), -1.5))
@@ -90,7 +96,7 @@ def table(axes, shots):
         axes.axhline(row, color=GRID, linewidth=0.6)
 
 
-def columns(shots):
+def columns(shots: Sequence[DrawnShot]) -> list[Column]:
     """Columns that are not empty for `shots`."""
     useless = set()
     if len({shot.result.ball for shot in shots}) == 1:
@@ -100,6 +106,6 @@ def columns(shots):
     return [column for column in COLUMNS if column[0] not in useless]
 
 
-def write(axes, x, y, text, align, color):
+def write(axes: Axes, x: float, y: float, text: str, align: str, color: Any) -> None:
     """Write one cell."""
     axes.text(x, y, text, ha=align, va='center', fontsize=SMALL, color=color)

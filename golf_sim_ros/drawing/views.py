@@ -14,10 +14,17 @@
 
 """Paths from above and from the side."""
 
+from collections.abc import Sequence
+from typing import Any
+
+from matplotlib.axes import Axes
 import numpy as np
 
 from . import ground
+from .shots import DrawnShot
 from .style import bare, colors, FEW, HALO, legible, SKY, SMALL, stroke
+from .window import Window
+from ..physics import Course
 
 HOLE_RADIUS = 0.054  # m, Rules of Golf
 APART = 0.17  # inches between two numbers of shots
@@ -26,11 +33,15 @@ STEEPEST = 6.0  # heights are enlarged at most so many times
 ENDS = {'at_rest': 'o', 'holed': 'o'}  # other ends are crosses
 
 
-def above(axes, shots, course, window, size, pixels):
-    """Draw `shots` from above into `axes`, `size` inches wide and high.
-
-    Return the materials seen.
-    """
+def above(
+    axes: Axes,
+    shots: Sequence[DrawnShot],
+    course: Course | None,
+    window: Window,
+    size: Sequence[float],
+    pixels: int,
+) -> set[int]:
+    """Draw `shots` from above into `axes`, `size` inches wide and high; return materials seen."""
     seen = ground.paint(axes, course, window, pixels) if course else set()
     for shot, color in zip(shots, colors(len(shots))):
         path(axes, shot, shot.positions[:, 0], shot.positions[:, 1], color, len(shots))
@@ -39,11 +50,13 @@ def above(axes, shots, course, window, size, pixels):
     if course:
         furniture(axes, course)
     axes.set(xlim=(window.left, window.right), ylim=(window.low, window.high))
-    number(axes, shots, course and course.hole, window.width / size[0])
+    number(axes, shots, course.hole if course else None, window.width / size[0])
     return seen
 
 
-def path(axes, shot, x, y, color, shots):
+def path(
+    axes: Axes, shot: DrawnShot, x: np.ndarray, y: np.ndarray, color: Any, shots: int
+) -> None:
     """Draw one line of a shot among `shots`, labelled with its number."""
     axes.plot(
         x,
@@ -56,7 +69,7 @@ def path(axes, shot, x, y, color, shots):
     )
 
 
-def touches(axes, places, color, shots):
+def touches(axes: Axes, places: Sequence[tuple[float, float]], color: Any, shots: int) -> None:
     """Draw the bounces of one of `shots` shots at `places`, rows of x, y."""
     if len(places):
         size = 3.2 if shots <= len(FEW) else 2.0
@@ -72,7 +85,7 @@ def touches(axes, places, color, shots):
         )
 
 
-def ends(axes, shots, axis):
+def ends(axes: Axes, shots: Sequence[DrawnShot], axis: tuple[int, int]) -> None:
     """Draw where `shots` began and ended; `axis` says which two coordinates are seen."""
     for shot, color in zip(shots, colors(len(shots))):
         mark, size = ENDS.get(shot.result.status, 'X'), 6.5 if len(shots) <= len(FEW) else 5.0
@@ -96,7 +109,7 @@ def ends(axes, shots, axis):
         )
 
 
-def number(axes, shots, hole, scale):
+def number(axes: Axes, shots: Sequence[DrawnShot], hole: tuple | None, scale: float) -> None:
     """Write the shots' numbers at their ends, where there is room; an inch is `scale` metres.
 
     They stand to the right, or to the left where the picture ends or the flag is in the way.
@@ -122,7 +135,7 @@ def number(axes, shots, hole, scale):
         text.set_path_effects(HALO)
 
 
-def furniture(axes, course):
+def furniture(axes: Axes, course: Course) -> None:
     """Draw tee, hole and bounds."""
     axes.plot(
         *course.tee,
@@ -150,7 +163,7 @@ def furniture(axes, course):
         flag(axes, x, y)
 
 
-def flag(axes, x, y):
+def flag(axes: Axes, x: float, y: float) -> None:
     """Draw a flagstick of fixed size at `x`, `y`."""
     axes.plot(
         x,
@@ -164,8 +177,17 @@ def flag(axes, x, y):
     )
 
 
-def from_side(axes, shots, course, window, size):
-    """Draw `shots` from the side into `axes`, `size` inches wide and high, over what `window` shows."""
+def from_side(
+    axes: Axes,
+    shots: Sequence[DrawnShot],
+    course: Course | None,
+    window: Window,
+    size: Sequence[float],
+) -> None:
+    """Draw `shots` from the side into `axes`, over what `window` shows.
+
+    `axes` are `size` inches wide and high.
+    """
     along = side_axis(window)
     limits = (window.left, window.right) if along == 0 else (window.low, window.high)
     heights = [shot.positions[:, 2] for shot in shots]
@@ -182,12 +204,12 @@ def from_side(axes, shots, course, window, size):
     bare(axes, f'From the side{enlarged(times)}', '' if along == 0 else 'y, left [m]', 'z, up [m]')
 
 
-def side_axis(window):
-    """0 where a play is best seen over x, 1 where over y."""
+def side_axis(window: Window) -> int:
+    """Choose the axis over which a play is best seen: 0 is x, 1 is y."""
     return 0 if window.width >= window.height else 1
 
 
-def span(heights, equal):
+def span(heights: list[np.ndarray], equal: float) -> tuple[float, float, float]:
     """Least and greatest height to be shown, and how many times they are enlarged.
 
     `equal` is the span [m] in which heights would be shown as large as lengths.
@@ -201,6 +223,6 @@ def span(heights, equal):
     return low, low + shown, equal / shown
 
 
-def enlarged(times):
+def enlarged(times: float) -> str:
     """Remark on heights that are enlarged, for a title."""
     return '' if 0.95 < times < 1.05 else f', heights × {times:.2g}'

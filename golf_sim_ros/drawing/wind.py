@@ -14,33 +14,38 @@
 
 """The wind as arrows, seen from above."""
 
+from collections.abc import Sequence
+from typing import Any
+
+from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 import numpy as np
 
+from .shots import DrawnShot
 from .style import colors, GRID, PALE, SKY, SMALL
 
 CALM = 0.05  # m/s: less is called calm
 
 
-def blown(shot):
-    """The winds that blew during `shot`, rows of x, y, z [m/s]."""
+def blown(shot: DrawnShot) -> np.ndarray:
+    """Find the winds that blew during `shot`, rows of x, y, z [m/s]."""
     began = max(np.searchsorted(shot.wind[:, 0], shot.times[0], 'right') - 1, 0)
-    ended = np.searchsorted(shot.wind[:, 0], shot.times[-1], 'left')
-    return shot.wind[began : max(ended, began + 1), 1:]
+    ended = max(np.searchsorted(shot.wind[:, 0], shot.times[-1], 'left'), began + 1)
+    return shot.wind[began:ended, 1:]
 
 
-def speeds(shots):
+def speeds(shots: Sequence[DrawnShot]) -> tuple[float, float]:
     """Least and greatest speed [m/s] of the wind during `shots`."""
     every = np.linalg.norm(np.vstack([blown(shot) for shot in shots]), axis=1)
     return every.min(), every.max()
 
 
-def mean(shot):
+def mean(shot: DrawnShot) -> float:
     """Mean speed [m/s] of the winds that blew during `shot`."""
-    return np.linalg.norm(blown(shot), axis=1).mean()
+    return float(np.linalg.norm(blown(shot), axis=1).mean())
 
 
-def rose(axes, shots):
+def rose(axes: Axes, shots: Sequence[DrawnShot]) -> None:
     """Draw where the air went during each shot into square `axes`."""
     low, high = speeds(shots)
     strongest = (
@@ -57,7 +62,7 @@ def rose(axes, shots):
     axes.set_axis_off()
 
 
-def arrows(axes, winds, color, shots):
+def arrows(axes: Axes, winds: np.ndarray, color: Any, shots: int) -> None:
     """Draw the mean of `winds`, rows of x, y, 1 being the strongest.
 
     Of a single shot, each of them too.
@@ -81,8 +86,8 @@ def arrows(axes, winds, color, shots):
         )
 
 
-def caption(low, high):
-    """The wind in words."""
+def caption(low: float, high: float) -> str:
+    """Put the wind in words."""
     if high < CALM:
         return 'calm'
     return f'wind {high:.1f} m/s' if high - low < CALM else f'wind {low:.1f} to {high:.1f} m/s'

@@ -14,9 +14,13 @@
 
 """Part of the course that a picture shows."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+
+from .shots import DrawnShot
+from ..physics import Course
 
 MARGIN = 0.04  # of the longer side, around all that is drawn
 LEAST = 1.0  # m: a ball that hardly moved is not drawn larger than this
@@ -34,17 +38,17 @@ class Window(NamedTuple):
     high: float
 
     @property
-    def width(self):
+    def width(self) -> float:
         """Along x."""
         return self.right - self.left
 
     @property
-    def height(self):
+    def height(self) -> float:
         """Along y."""
         return self.high - self.low
 
 
-def window(shots, course):
+def window(shots: Sequence[DrawnShot], course: Course | None) -> Window:
     """`Window` that shows all `shots`, and the hole where it isn't far away."""
     places = np.vstack([shot.positions[:, :2] for shot in shots])
     low, high = places.min(0), places.max(0)
@@ -59,16 +63,20 @@ def window(shots, course):
     return Window(x - 0.5 * width, x + 0.5 * width, y - 0.5 * height, y + 0.5 * height)
 
 
-def beyond(low, high, place):
-    """How far `place` lies outside the rectangle from `low` to `high`."""
-    return np.linalg.norm(np.clip(place, low, high) - place)
+def beyond(low: np.ndarray, high: np.ndarray, place: Sequence[float]) -> float:
+    """Find how far `place` lies outside the rectangle from `low` to `high`."""
+    return float(np.linalg.norm(np.clip(place, low, high) - place))
 
 
-def near_hole(shots, course, whole):
-    """Square `Window` around the hole and the ends that lie too near to it in the `whole` one, or None."""
+def near_hole(shots: Sequence[DrawnShot], course: Course | None, whole: Window) -> Window | None:
+    """Square `Window` around the hole and the ends that lie too near to it in the `whole` one.
+
+    None where there are none.
+    """
     if not course or not course.hole:
         return None
-    near = [shot.result.to_hole for shot in shots if shot.result.to_hole * NEAR < whole.width]
+    left = [shot.result.to_hole for shot in shots]
+    near = [way for way in left if way is not None and way * NEAR < whole.width]
     if not near:
         return None
     (x, y), half = course.hole, 1.25 * max(*near, LEAST)

@@ -14,27 +14,35 @@
 
 """Triangles of the ground in the colours of its zones, for display."""
 
+from collections.abc import Iterable, Sequence
 from math import ceil, sqrt
+from typing import Any
 
 import numpy as np
 
-from .polygon_triangles import sides, triangles
+from .polygon_triangles import Polygon, sides, triangles
+from ..physics import Material
 from ..physics.geometry.zone import zones_of
 
 FEW = 20  # zones on a tile; fewer on all of a surface are drawn at once
 MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
 
 
-def flat(outline, cuts, material, zones):
-    """Pairs of a material and its triangles of (x, y): `outline` without `cuts`, painted with `zones`."""
+def flat(
+    outline: Polygon, cuts: Sequence[Polygon], material: Material, zones: Sequence[Any]
+) -> list[tuple[Material, list[tuple]]]:
+    """Paint `outline`, without `cuts`, with `zones`.
+
+    Returns pairs of a material and its triangles of (x, y).
+    """
     zones = zones_of(zones)
     near = Boxes([zone.polygon for zone in zones])
-    base = []
+    base: list[tuple] = []
     for tile in tiles(outline, len(zones)):
         base += triangles(
             tile, cuts, outline, [(zones[i].polygon, zones[i].cut) for i in near.to(tile)]
         )
-    found = [(material, base)]
+    found: list[tuple[Material, list[tuple]]] = [(material, base)]
     for number, (paint, polygon, own) in enumerate(zones):
         later = [(zones[i].polygon, zones[i].cut) for i in near.to(polygon, number + 1)]
         hiding = [cut for cut in (*cuts, *own) if boxes_meet(cut, polygon)]
@@ -42,8 +50,8 @@ def flat(outline, cuts, material, zones):
     return found
 
 
-def tiles(outline, count):
-    """Rectangles that cover `outline`, so small that of `count` polygons over it a few lie in each."""
+def tiles(outline: Polygon, count: int) -> list[Polygon]:
+    """Rectangles that cover `outline`, so small that a few of `count` polygons lie in each."""
     n = ceil(sqrt(count / FEW))
     if n <= 1:
         return [outline]
@@ -61,25 +69,30 @@ def tiles(outline, count):
 class Boxes:
     """Upright rectangles around `polygons`."""
 
-    def __init__(self, polygons):
+    def __init__(self, polygons: Sequence[Polygon]) -> None:
         self.low = np.array([np.min(polygon, 0) for polygon in polygons]).reshape(-1, 2)
         self.high = np.array([np.max(polygon, 0) for polygon in polygons]).reshape(-1, 2)
 
-    def to(self, polygon, first=0):
+    def to(self, polygon: Polygon, first: int = 0) -> list[int]:
         """Numbers, from `first` on, of those that meet the rectangle around `polygon`."""
         low, high = np.min(polygon, 0), np.max(polygon, 0)
         near = (low <= self.high[first:]).all(1) & (self.low[first:] <= high).all(1)
         return (first + np.flatnonzero(near)).tolist()
 
 
-def boxes_meet(one, other):
+def boxes_meet(one: Polygon, other: Polygon) -> bool:
     """Whether the upright rectangles around two polygons meet."""
     (low, high), (other_low, other_high) = ((np.min(p, 0), np.max(p, 0)) for p in (one, other))
     return bool((low <= other_high).all() and (other_low <= high).all())
 
 
-def curved(corners, material, zones):
-    """Pairs of a material and its triangles: each of `corners`, (n, 3, 3), is painted as its middle."""
+def curved(
+    corners: np.ndarray, material: Material, zones: Sequence[Any]
+) -> list[tuple[Material, np.ndarray]]:
+    """Paint triangles with `zones`: each of `corners`, (n, 3, 3), as its middle.
+
+    Returns pairs of a material and its triangles.
+    """
     corners = np.asarray(corners, float)
     paint = last_zone(zones, *corners[..., :2].mean(1).T)
     return [
@@ -88,8 +101,8 @@ def curved(corners, material, zones):
     ]
 
 
-def last_zone(zones, x, y):
-    """Number of the last of `zones` that holds each place; -1 where there is none."""
+def last_zone(zones: Sequence[Any], x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Find the number of the last of `zones` that holds each place; -1 where there is none."""
     numbers = np.full(len(x), -1)
     for number, zone in enumerate(zones_of(zones)):
         (left, front), (right, back) = np.min(zone.polygon, 0), np.max(zone.polygon, 0)
@@ -98,12 +111,14 @@ def last_zone(zones, x, y):
     return numbers
 
 
-def in_region(polygon, cuts, x, y):
+def in_region(
+    polygon: Polygon, cuts: Iterable[Polygon], x: np.ndarray, y: np.ndarray
+) -> np.ndarray:
     """Whether `polygon`, without `cuts`, holds each place."""
     return holds(polygon, x, y) & ~np.any([holds(cut, x, y) for cut in cuts], axis=0)
 
 
-def holds(polygon, x, y):
+def holds(polygon: Polygon, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Whether `polygon` holds each place: a ray to the right leaves it an odd number of times."""
     odd = np.zeros(len(x), bool)
     for (ax, ay), (bx, by) in sides(polygon):
@@ -112,7 +127,7 @@ def holds(polygon, x, y):
     return odd
 
 
-def cells(heights, origin, spacing):
+def cells(heights: Any, origin: Sequence[float], spacing: float) -> np.ndarray:
     """Triangles (n, 3, 3) of a height map, two a cell.
 
     Of a large one, of every second or third height.
@@ -126,7 +141,7 @@ def cells(heights, origin, spacing):
     )
 
 
-def sheet(x, y, heights):
+def sheet(x: np.ndarray, y: np.ndarray, heights: np.ndarray) -> np.ndarray:
     """Triangles (n, 3, 3) of `heights` at `x`, `y`: two for each cell between them."""
     grid = np.stack((*np.meshgrid(x, y), heights), -1)
     a, b, c, d = grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]

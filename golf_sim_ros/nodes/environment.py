@@ -14,13 +14,14 @@
 
 """The environment variables without which rclpy does not start, or finds no packages."""
 
+from collections.abc import Mapping, MutableMapping
 import os
 from pathlib import Path
 import sys
 import tempfile
 
 
-def complete_environment(environment=os.environ):
+def complete_environment(environment: MutableMapping[str, str] = os.environ) -> None:
     """Add the variables that are missing in `environment`; what the user or ROS has set stays.
 
     rclpy raises where it can write no log: without HOME (a bare container, a service), or with a
@@ -43,10 +44,8 @@ def complete_environment(environment=os.environ):
         environment['AMENT_PREFIX_PATH'] = sys.prefix
 
 
-def unsafe(environment=os.environ):
-    """One line on what is missing of the security that `environment` asks ROS for.
-
-    '' where nothing is.
+def unsafe(environment: Mapping[str, str] = os.environ) -> str:
+    """Say what is missing of the security that `environment` asks for, or ''.
 
     rclpy itself says no more than that it cannot be initialized.
     """
@@ -57,12 +56,12 @@ def unsafe(environment=os.environ):
     if keystore and Path(keystore, 'enclaves').is_dir():
         return ''
     return (
-        f'ROS_SECURITY_ENABLE is true, but ROS_SECURITY_KEYSTORE {keystore!r} is no keystore: make one '
-        'with ros2 security create_keystore, or unset ROS_SECURITY_ENABLE'
+        f'ROS_SECURITY_ENABLE is true, but ROS_SECURITY_KEYSTORE {keystore!r} is no keystore: '
+        'make one with ros2 security create_keystore, or unset ROS_SECURITY_ENABLE'
     )
 
 
-def _can_log_at_home(environment):
+def _can_log_at_home(environment: Mapping[str, str]) -> bool:
     """Whether rclpy can write its log where it does by default; makes the folder if need be."""
     if not environment.get('HOME'):
         return False

@@ -14,14 +14,21 @@
 
 """The game in time: inputs are applied between ticks, what happens is published and logged."""
 
+from collections.abc import Callable, Iterable
 from time import perf_counter, process_time
 
 import numpy as np
+from rclpy.impl.rcutils_logger import RcutilsLogger
 
 from . import log_lines
+from .conversions import Vector
 from .diagnostics import Diagnostics, SLOW
+from .listener import Listener
+from .parameters import Parameters
 from .real_time import RealTime
-from ..physics import Rejected, Result
+from .rejected_inputs import RejectedInputs
+from .takeover import Takeover
+from ..physics import Collision, Rejected, Result, World
 from ..physics.engine.orientation import UPRIGHT
 from ..physics.live_parameters import checked_live
 from ..recording.journal import Journal
@@ -52,13 +59,19 @@ class Game:
         Notes what the play costs, and decides between shots which engine goes on.
     """
 
-    def __init__(self, world, listener, rejected_inputs, log, given, takeover):
-        self.world, self.listener, self.rejected_inputs, self.log = (
-            world,
-            listener,
-            rejected_inputs,
-            log,
-        )
+    def __init__(
+        self,
+        world: World,
+        listener: Listener,
+        rejected_inputs: RejectedInputs,
+        log: RcutilsLogger,
+        given: Parameters,
+        takeover: Takeover,
+    ) -> None:
+        self.world = world
+        self.listener = listener
+        self.rejected_inputs = rejected_inputs
+        self.log = log
         self.takeover = takeover
         self.real_time = RealTime(
             1.0 / given.rate,
@@ -67,30 +80,33 @@ class Game:
         )
         self.busy = min(BUSY / given.publish_rate, LONGEST_BUSY)
         self.keeps_time = given.publish_clock
-        self.journal, self.ticks = Journal(listener.journal_entry), 0
+        self.journal = Journal(listener.journal_entry)
+        self.ticks = 0
         self.diagnostics = Diagnostics()
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
         self.steps = self.shots = 0  # shots: strikes received
-        # of strikes under way, by those of the world, which counts only what it accepts
-        self.numbers = {}
-        self.inputs = []
+        # Of strikes under way, by those of the world, which counts only what it accepts.
+        self.numbers: dict[int, int] = {}
+        self.inputs: list[Callable[[], None]] = []
         self.live = world.live  # live parameters of effects, as last received
         self.paused = self.stood_still = False  # now, and at any time since the last diagnostics
         self.failures = 0  # of balls that could not be simulated further, as last published
-        self.began, self.spent = perf_counter(), process_time()  # when the last advance began
+        # When the last advance began.
+        self.began = perf_counter()
+        self.spent = process_time()
         self.turned = np.tile(UPRIGHT, (len(world.names), 1))
         self.orientations = dict(zip(world.names, self.turned))  # the same numbers, by name
-        self.awake = set()  # balls whose pose was still changing when last published
+        self.awake: set[str] = set()  # balls whose pose was still changing when last published
         self.course_due = self.all_due = True
 
     @property
-    def asleep(self):
+    def asleep(self) -> bool:
         """Whether nothing changes until an input arrives."""
         stands_still = self.real_time.hurries or not self.keeps_time
         return self.paused or stands_still and not self.world.moving
 
-    def step(self):
+    def step(self) -> None:
         """Advance by the time that has passed on the clock, apply what arrived, publish."""
         self.advance()
         if not self.world.moving:
@@ -100,7 +116,7 @@ class Game:
         with self.diagnostics.publishing():
             self.notify()
 
-    def advance(self):
+    def advance(self) -> None:
         """Advance by as many whole ticks as are due; where they are many, publish in between."""
         passed, spent = perf_counter() - self.began, process_time() - self.spent
         self.began, self.spent = self.began + passed, self.spent + spent
@@ -116,7 +132,7 @@ class Game:
             self.takeover.note(spent, passed)
         self.advance_by_portions(moving)
 
-    def advance_by_portions(self, moving):
+    def advance_by_portions(self, moving: bool) -> None:
         """Advance by the ticks that are due, publishing after each portion."""
         done = 0
         for ticks in self.real_time.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
@@ -131,7 +147,7 @@ class Game:
         if moving and not self.real_time.hurries:
             self.diagnostics.count(done, self.real_time.usual * self.real_time.factor)
 
-    def tick(self):
+    def tick(self) -> None:
         """Advance by one tick and publish its events."""
         began = perf_counter()
         events = self.world.advance(self.real_time.tick)
@@ -142,7 +158,7 @@ class Game:
             with self.diagnostics.publishing():
                 self.notify_events(events)
 
-    def notify_events(self, events):
+    def notify_events(self, events: Iterable[Collision | Result]) -> None:
         """Publish collisions and ends of shots."""
         for event in events:
             if isinstance(event, Result):
@@ -150,7 +166,7 @@ class Game:
             else:
                 self.listener.collision(event)
 
-    def apply(self):
+    def apply(self) -> None:
         """Apply the inputs that arrived, in order; the wind first, so that a shot starts in it."""
         for effect, value in self.live.items():
             if value != self.world.live[effect]:
@@ -162,11 +178,11 @@ class Game:
             act()
             self.notify_events(self.world.happened())
 
-    def set_live(self, effect, value):
-        """Take the newest live parameter of an effect, such as wind, which the next step applies."""
+    def set_live(self, effect: str, value: tuple[float, ...]) -> None:
+        """Take the newest live parameter of an effect, such as wind; the next step applies it."""
         self.live[effect] = checked_live(effect, value)
 
-    def strike(self, name, velocity, spin):
+    def strike(self, name: str, velocity: Vector, spin: Vector) -> None:
         """Strike a ball; a rejected shot has its result at once."""
         self.shots += 1
         before = state_text(self.world)
@@ -180,7 +196,7 @@ class Game:
         self.journal.strike(self.ticks, self.shots, name, (velocity, spin), before)
         self.listener.path_begins(name)
 
-    def place(self, name, point):
+    def place(self, name: str, point: Vector) -> None:
         """Put a resting ball on the ground at the x and y of `point`."""
         try:
             if name in self.world.in_motion:
@@ -193,7 +209,7 @@ class Game:
         self.listener.path_begins(name)
         self.all_due = True
 
-    def reset(self):
+    def reset(self) -> None:
         """Put all balls back to the start; shots under way end as aborted."""
         aborted = self.world.reset()
         self.journal.note('reset', self.ticks)
@@ -203,7 +219,7 @@ class Game:
             self.listener.path_begins(name)
         self.all_due = True
 
-    def finish(self, result):
+    def finish(self, result: Result) -> None:
         """Publish and log the end of a shot."""
         self.awake.add(result.ball)
         shot, ball = self.numbers.pop(result.shot), self.world[result.ball]
@@ -219,18 +235,18 @@ class Game:
         else:
             self.log.info(log_lines.line(result))
 
-    def set_accuracy(self, accuracy):
+    def set_accuracy(self, accuracy: str) -> None:
         """Set the accuracy of the simulation from now on."""
         self.world.accuracy = accuracy
         if self.world.moving:
             self.journal.note('accuracy', self.ticks, accuracy=accuracy)
 
-    def set_real_time_factor(self, factor):
+    def set_real_time_factor(self, factor: float) -> None:
         """Set how many times as fast as the clock simulated time passes from now on."""
         self.advance()
         self.real_time.factor = factor
 
-    def notify(self):
+    def notify(self) -> None:
         """Publish time, balls that move or have just stopped, and markers where they are due."""
         scene_due = self.scene_due()
         self.notify_balls(self.all_due)
@@ -240,7 +256,7 @@ class Game:
             self.listener.course()
         self.all_due = self.course_due = False
 
-    def notify_balls(self, all_of_them=False):
+    def notify_balls(self, all_of_them: bool = False) -> None:
         """Publish the time, and balls that move or have just stopped."""
         moving = set(self.world.in_motion)
         balls = {
@@ -250,15 +266,17 @@ class Game:
         self.listener.balls(balls, self.orientations, moving)
         self.awake = moving
 
-    def scene_due(self):
-        """Whether the markers of the play are due: `SCENE_RATE` a second, and whenever balls stop."""
+    def scene_due(self) -> bool:
+        """Whether the markers of the play are due.
+
+        `SCENE_RATE` a second, and whenever balls stop.
+        """
         self.steps += 1
         moving = set(self.world.in_motion)
-        return (
-            self.all_due or self.awake != moving or moving and self.steps % self.steps_a_scene == 0
-        )
+        in_turn = self.steps % self.steps_a_scene == 0
+        return self.all_due or self.awake != moving or bool(moving) and in_turn
 
-    def diagnose(self):
+    def diagnose(self) -> None:
         """Publish how well simulated time keeps up with the clock."""
         self.diagnostics.mark(self.world)
         slow = self.diagnostics.factor < SLOW * self.real_time.factor and not self.stood_still

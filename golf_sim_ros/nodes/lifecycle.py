@@ -14,17 +14,21 @@
 
 """The life of a node's process: from the first line of `main` to its exit code."""
 
+from collections.abc import Callable
 import signal
 import sys
+from types import FrameType
+from typing import Any, Optional
 
 import rclpy
 from rclpy.exceptions import ParameterException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.logging import get_logger
+from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
-from .command_line import answered, explained
+from .command_line import answered, explained, Program
 from .environment import complete_environment, unsafe
 
 try:
@@ -37,7 +41,7 @@ AGAIN = 0.2  # s after which an interruption that was not heard is repeated
 REFUSED = (ValueError, ParameterException)  # a wrong parameter or file
 
 
-def say_nothing(unraisable):
+def say_nothing(unraisable: Any) -> None:
     """Ignore an exception that cannot be raised, in place of `sys.unraisablehook`."""
 
 
@@ -48,28 +52,29 @@ class Ending:
     compiler may swallow that, it is repeated until it has been heard.
     """
 
-    def __init__(self):
-        self.told, self.at_once = False, True
+    def __init__(self) -> None:
+        self.told = False
+        self.at_once = True
         for number in (*SIGNALS, signal.SIGALRM):
             signal.signal(number, self.tell)
 
-    def tell(self, number, frame):
+    def tell(self, number: int, frame: FrameType | None) -> None:
         """Handle a signal: note it, and interrupt what goes on while `at_once`."""
         self.told = True
         if self.at_once:
-            # callbacks that are interrupted would print a traceback
+            # Callbacks that are interrupted would print a traceback.
             sys.unraisablehook = say_nothing
             signal.setitimer(signal.ITIMER_REAL, AGAIN)
             raise KeyboardInterrupt
 
-    def be_patient(self):
+    def be_patient(self) -> None:
         """Interrupt nothing from now on."""
         self.at_once = False
         signal.setitimer(signal.ITIMER_REAL, 0.0)
 
 
-def run(make_node, program, args=None):
-    """Exit code of a process that runs the node made by `make_node` until it is told to stop.
+def run(make_node: Callable[[], Node], program: Program, args: list[str] | None = None) -> int:
+    """Run the node made by `make_node` until the process is told to stop; return the exit code.
 
     SIGINT and SIGTERM end it with 0 at any time, also while it compiles. Where `make_node` raises
     what a user can put right (`REFUSED`), the log has one line and the code is 1. Where the
@@ -98,13 +103,12 @@ def run(make_node, program, args=None):
     return 0
 
 
-def checked(make_node, args):
-    """Node made by `make_node`, or None after a line in the log that says what was wrong."""
+def checked(make_node: Callable[[], Node], args: list[str] | None) -> Optional[Node]:
+    """Make a node by `make_node`; None after a line in the log that says what was wrong."""
     try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-    except (
-        rclpy_implementation.RCLError
-    ) as error:  # of what the arguments name: an enclave, a pipe
+    except rclpy_implementation.RCLError as error:
+        # Of what the arguments name: an enclave, a pipe.
         get_logger('golf_sim_ros').fatal(explained(error))
         return None
     try:
@@ -114,7 +118,7 @@ def checked(make_node, args):
         return None
 
 
-def spin(node, ending):
+def spin(node: Node, ending: Ending) -> None:
     """Let `node` work until the `ending` is told, never stopping in the middle of a callback.
 
     `EventsExecutor` takes a fifth of the processor time; its `spin` without a timeout never calls

@@ -25,30 +25,33 @@ class Listener(Protocol):
     """All that happens in a game, in the order in which it happens."""
 
     def journal_entry(self, text: str) -> None:
-        """One more entry of the journal, an object of JSON; the first one is the configuration."""
+        """Hear one more entry of the journal, an object of JSON; the first one configures."""
 
     def collision(self, collision: Collision) -> None:
-        """An impact."""
+        """Hear of an impact."""
 
     def result(self, result: Result, shot: int) -> None:
-        """The end of strike number `shot`."""
+        """Hear of the end of strike number `shot`."""
 
     def rejection(self, shot: int, ball: str, velocity: tuple, spin: tuple, reason: str) -> None:
-        """Strike number `shot` was not played."""
+        """Hear that strike number `shot` was not played."""
 
     def path_begins(self, ball: str) -> None:
-        """A ball was struck, placed or put back to the start: its path so far is over."""
+        """Hear that the path of a ball is over: it was struck, placed or put back to the start."""
 
     def balls(
         self, balls: dict[str, BallState], orientations: dict[str, np.ndarray], moving: set[str]
     ) -> None:
-        """The world's time has gone on: balls that move or have just stopped, and those that move."""
+        """Hear that the time of the world has gone on.
+
+        `balls` move or have just stopped; those named in `moving` move.
+        """
 
     def scene(self, wind: tuple) -> None:
-        """The whole play is due, with the wind that blows: seldom, but always where balls stop."""
+        """Show the whole play, with the wind that blows: seldom, but always where balls stop."""
 
     def course(self) -> None:
-        """The course is due: somebody new looks at it."""
+        """Show the course: somebody new looks at it."""
 
     def diagnostics(self, slow: bool, values: dict[str, str]) -> None:
-        """How well the simulation keeps up, once a second."""
+        """Hear how well the simulation keeps up, once a second."""

@@ -14,7 +14,10 @@
 
 """Lines of the log: one for each shot, and what is simulated."""
 
+from collections.abc import Mapping, Sequence
 from math import atan2, hypot, pi
+
+from ..physics import Result, World
 
 DEGREE = pi / 180
 # Least speed [m/s] and greatest launch angle [rad] of what a shot resembles, first that fits:
@@ -30,7 +33,7 @@ KINDS = (
 LONG = 20.0  # m; of shorter shots a player wants to know the centimetres
 
 
-def kind(velocity):
+def kind(velocity: Sequence[float]) -> str:
     """Kind of shot that a launch at `velocity` resembles, by name."""
     x, y, z = velocity
     level = hypot(x, y)
@@ -38,8 +41,8 @@ def kind(velocity):
     return next(name for name, least, most in KINDS if speed >= least and angle <= most)
 
 
-def line(result):
-    """Line for the log about `result`.
+def line(result: Result) -> str:
+    """Write the line for the log about `result`.
 
     Such as ``driver-like shot: carry 251 m, total 268 m, 3 m left, fairway, 112 m to the hole``.
     """
@@ -52,7 +55,7 @@ def line(result):
     return f'{kind(result.velocity)}: {", ".join(parts)}'
 
 
-def effect_lines(world):
+def effect_lines(world: World) -> list[str]:
     """Lines for the log about what is simulated, and what is not and why."""
     lines = [f'simulated: {", ".join(world.effects_on) or "nothing"}; accuracy {world.accuracy}']
     if world.effects_off:
@@ -60,25 +63,25 @@ def effect_lines(world):
     return lines
 
 
-def with_reasons(reasons):
-    """Names with their `reasons`, a dict by name, such as ``wind (no wind).
+def with_reasons(reasons: Mapping[str, str]) -> str:
+    """Names with their `reasons`, a dict by name.
 
-    Drag, magnus (no air)``.
+    Such as ``wind (no wind); drag, magnus (no air)``.
     """
-    names = {}
+    names: dict[str, list[str]] = {}
     for name, reason in reasons.items():
         names.setdefault(reason, []).append(name)
     return '; '.join(f'{", ".join(some)} ({reason})' for reason, some in names.items())
 
 
-def side(metres, digits):
-    """How far left or right of the line a shot ended, in words."""
+def side(metres: float, digits: int) -> str:
+    """Say how far left or right of the line a shot ended."""
     distance = f'{abs(metres):.{digits}f}'
     if float(distance) == 0.0:
         return 'straight'
     return f'{distance} m {"left" if metres > 0 else "right"}'
 
 
-def place(result):
-    """Where the ball lies, or why the shot ended."""
+def place(result: Result) -> str:
+    """Say where the ball lies, or why the shot ended."""
     return result.lie if result.status == 'at_rest' else result.status.replace('_', ' ')

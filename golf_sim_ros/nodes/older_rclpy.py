@@ -17,12 +17,17 @@
 A newer one's own functions are used.
 """
 
+from collections.abc import Callable, Sequence
 from functools import partial
+from typing import Any
 
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
 from rclpy.parameter import Parameter
+from rclpy.publisher import Publisher
 from rclpy.qos import qos_profile_parameter_events
+from rclpy.subscription import Subscription
 
 try:
     from rclpy.event_handler import (
@@ -38,7 +43,7 @@ except ImportError:
 PERIOD = 0.2  # s from one count of subscriptions to the next
 
 
-def after_set(node, callback):
+def after_set(node: Node, callback: Callable[[list[Parameter]], None]) -> None:
     """Register `callback(parameters)`, called whenever parameters of `node` have been set.
 
     Without `add_post_set_parameters_callback` the node subscribes to its own parameter events.
@@ -54,14 +59,16 @@ def after_set(node, callback):
     )
 
 
-def _on_event(node, callback, event):
+def _on_event(
+    node: Node, callback: Callable[[list[Parameter]], None], event: ParameterEvent
+) -> None:
     """Pass on the parameters that an event says were set, if it is about this node."""
     if event.node == node.get_fully_qualified_name() and event.changed_parameters:
         callback([Parameter.from_parameter_msg(changed) for changed in event.changed_parameters])
 
 
-def on_match(callback):
-    """Event callbacks for publishers that call `callback` whenever one more subscription matches.
+def on_match(callback: Callable[[], None]) -> Any:
+    """Make event callbacks of publishers that call `callback` when one more subscription matches.
 
     None where there is no such event; there `watch` the publishers.
     """
@@ -72,8 +79,11 @@ def on_match(callback):
     )
 
 
-def watch(node, publishers, callback):
-    """Call `callback` when one of `publishers` has more subscriptions, where `on_match` gives None."""
+def watch(node: Node, publishers: Sequence[Publisher], callback: Callable[[], None]) -> None:
+    """Call `callback` when one of `publishers` has more subscriptions.
+
+    Only where `on_match` gives None.
+    """
     if PublisherEventCallbacks is None:
         counts = [0] * len(publishers)
         node.create_timer(
@@ -83,7 +93,9 @@ def watch(node, publishers, callback):
         )
 
 
-def _compare(publishers, counts, callback):
+def _compare(
+    publishers: Sequence[Publisher], counts: list[int], callback: Callable[[], None]
+) -> None:
     """Call `callback` if any subscription was added since the last call; writes `counts`."""
     now = [publisher.get_subscription_count() for publisher in publishers]
     joined = any(new > old for new, old in zip(now, counts))
@@ -92,8 +104,8 @@ def _compare(publishers, counts, callback):
         callback()
 
 
-def publisher_count(node, subscription):
-    """Number of publishers that a subscription of `node` has."""
+def publisher_count(node: Node, subscription: Subscription) -> int:
+    """Count the publishers that a subscription of `node` has."""
     if hasattr(subscription, 'get_publisher_count'):
         return subscription.get_publisher_count()
     return node.count_publishers(subscription.topic_name)

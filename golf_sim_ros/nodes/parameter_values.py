@@ -12,19 +12,20 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Values of parameters as people type them, in the type of the default.
-
-And names that are mistyped.
+"""Values of parameters as people type them, in the type of the default; names that are mistyped.
 
 `rate:=250` is an integer to ROS, `balls:=a` a string and `frame_id:=1` no string. They are
 converted before they are declared, so that types and ranges stay what `ros2 param describe` says.
 """
 
+from collections.abc import Callable, Mapping, Sequence
 from difflib import get_close_matches
 import re
 import sys
+from typing import Any
 
 from rclpy.exceptions import ParameterNotDeclaredException
+from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 from .command_line import only_for_all_nodes
@@ -44,18 +45,20 @@ KIND = {
     int: 'a whole number',
     bool: 'true or false',
     str: 'text; what YAML reads as something else is quoted, as in \'"on"\'',
-    tuple: 'names, as in a or [a, b]; what YAML reads as something else is quoted, as in \'["on"]\'',
+    tuple: (
+        'names, as in a or [a, b]; what YAML reads as something else is quoted, as in \'["on"]\''
+    ),
 }
 
 
-def number(value):
+def number(value: Any) -> float:
     """`value` as a float; ValueError where it is none."""
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise ValueError
     return float(value)
 
 
-def whole(value):
+def whole(value: Any) -> int:
     """`value` as an int; ValueError where it is none, or has a fraction."""
     if isinstance(value, int) and not isinstance(value, bool):
         return value
@@ -66,25 +69,25 @@ def whole(value):
     return int(value)
 
 
-def switch(value):
+def switch(value: Any) -> bool:
     """`value` as a bool; ValueError where it is none."""
     if str(value).lower() not in SWITCH:
         raise ValueError
     return SWITCH[str(value).lower()]
 
 
-def text(value):
-    """`value` as a str.
-
-    ValueError where YAML may have read it as something else than was typed.
-    """
+def text(value: Any) -> str:
+    """`value` as a str; ValueError where YAML may have read something else than was typed."""
     if isinstance(value, bool) or not isinstance(value, (int, str)):
         raise ValueError
     return str(value)
 
 
-def names(value):
-    """`value` as a list of str, or None: a list, or one or several with commas or spaces between."""
+def names(value: Any) -> list[str] | None:
+    """`value` as a list of str, or None.
+
+    It is a list, or one name, or several with commas or spaces between.
+    """
     if value is None or value == '':  # ROS has no type for []
         return None
     if isinstance(value, str):
@@ -92,10 +95,16 @@ def names(value):
     return [text(name) for name in value] if hasattr(value, '__iter__') else [text(value)]
 
 
-AS = {float: number, int: whole, bool: switch, str: text, tuple: names}
+AS: dict[type, Callable[[Any], Any]] = {
+    float: number,
+    int: whole,
+    bool: switch,
+    str: text,
+    tuple: names,
+}
 
 
-def fitted(parameter, default):
+def fitted(parameter: Parameter, default: Any) -> Parameter:
     """`Parameter` of the type of `default` that means the same as `parameter`.
 
     Raises
@@ -112,11 +121,11 @@ def fitted(parameter, default):
         ) from None
 
 
-def fit(node, defaults):
-    """Convert what was given to `node` for the parameters `defaults` to their types, now and while it runs.
+def fit(node: Node, defaults: Mapping[str, Any]) -> None:
+    """Convert what was given to `node` for the parameters `defaults` to their types.
 
-    To be called before they are declared. Raises ValueError as `fitted` does; while the node runs,
-    what does not fit is left to rclpy, which refuses it.
+    Now, and while it runs. To be called before they are declared. Raises ValueError as `fitted`
+    does; while the node runs, what does not fit is left to rclpy, which refuses it.
     """
     overrides = node._parameter_overrides  # rclpy offers them nowhere before they are declared
     for name in defaults.keys() & overrides.keys():
@@ -127,7 +136,7 @@ def fit(node, defaults):
         )
 
 
-def live(node, parameter, defaults):
+def live(node: Node, parameter: Parameter, defaults: Mapping[str, Any]) -> Parameter:
     """`parameter`, fitted where it can be; an `Unknown` one is refused."""
     if not node.has_parameter(parameter.name):
         raise Unknown(parameter.name, known(defaults))
@@ -140,27 +149,29 @@ def live(node, parameter, defaults):
 
 
 class Unknown(ParameterNotDeclaredException):
-    """Answer of `ros2 param set` to a name that is not known.
+    """Answer of `ros2 param set` to a name that is not known, which has the name.
 
-    Rclpy's own line does not have the name.
+    In the line of rclpy itself it is missing.
     """
 
-    def __init__(self, name, names):
+    def __init__(self, name: str, names: Sequence[str]) -> None:
         Exception.__init__(self, unknown(name, names))
 
 
-def unknown(name, names):
-    """One line about a parameter that is none of `names`."""
+def unknown(name: str, names: Sequence[str]) -> str:
+    """Write one line about a parameter that is none of `names`."""
     (nearest,) = get_close_matches(name, names, n=1, cutoff=0.0)
     return f'parameter {name!r} is unknown and does nothing; nearest known: {nearest}'
 
 
-def known(defaults):
+def known(defaults: Mapping[str, Any]) -> list[str]:
     """Names of the parameters that a user may set."""
     return [*defaults, 'use_sim_time']
 
 
-def warn_of_unknown(node, defaults, words=None):
+def warn_of_unknown(
+    node: Node, defaults: Mapping[str, Any], words: Sequence[str] | None = None
+) -> None:
     """Warn once of each parameter given to `node` that it has not declared.
 
     What a params file says to all nodes (`/**`) may well be for another one: of that there is no

@@ -14,10 +14,14 @@
 
 """Parameters of `sim_node`: declared with description, type and range, and checked."""
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
 
+from . import transforms
 from .command_line import Program
 from .parameter_values import fit, warn_of_unknown
 from ..physics import ACCURACY
@@ -31,9 +35,11 @@ class Parameters(NamedTuple):
     publish_rate: float = 50.0
     real_time_factor: float = 1.0
     accuracy: str = 'standard'
-    effects: tuple = ('auto',)
-    balls: tuple = ('ball',)
+    effects: tuple[str, ...] = ('auto',)
+    balls: tuple[str, ...] = ('ball',)
     frame_id: str = 'course'
+    publish_tf: bool = transforms.IS_HERE
+    parent_frame: str = 'map'
     publish_clock: bool = False
     engine: str = 'auto'
 
@@ -43,15 +49,17 @@ MEANING = {
     'course': 'name of a shipped course, or path of a course file',
     'rate': 'physics ticks a second of simulated time',
     'publish_rate': 'pose and twist messages a second while a ball moves; at most rate',
-    'real_time_factor': 'simulated seconds a wall second, from 0.1; 0: as fast as it can, and time stands '
-    'still while every ball rests; may be changed while running',
+    'real_time_factor': 'simulated seconds a wall second, from 0.1; 0: as fast as it can, and '
+    'time stands still while every ball rests; may be changed while running',
     'accuracy': f'one of {", ".join(ACCURACY)}; may be changed while running',
     'effects': "effects to simulate, or ['auto']: just those that the scene calls for",
     'balls': 'names of the balls; the first one is in play',
     'frame_id': 'frame of every stamp, and the frame in which inputs are understood',
+    'publish_tf': 'whether to publish transforms of course, tee, hole and balls; needs tf2_msgs',
+    'parent_frame': 'frame around that of the course, for publish_tf',
     'publish_clock': 'whether to publish simulated time on /clock, and to stamp with it',
-    'engine': 'what runs the physics: python, plain Python; compiled, the compiled engine; auto, Python '
-    'until it takes too much of a core',
+    'engine': 'what runs the physics: python, plain Python; compiled, the compiled engine; auto, '
+    'Python until it takes too much of a core',
 }
 RANGE = {'rate': (10.0, 10000.0), 'publish_rate': (1.0, 1000.0), 'real_time_factor': (0.0, 100.0)}
 LIVE = ('accuracy', 'real_time_factor')
@@ -69,11 +77,8 @@ PROGRAM = Program(
 )
 
 
-def declared(node):
-    """`Parameters` of `node` after all were declared.
-
-    ValueError where they do not fit together.
-    """
+def declared(node: Node) -> Parameters:
+    """Declare the `Parameters` of `node`; ValueError where they do not fit together."""
     defaults = Parameters()._asdict()
     fit(node, defaults)
     values = Parameters(
@@ -90,15 +95,18 @@ def declared(node):
         raise ValueError(f'use_sim_time must be false: {OWN_TIME}')
     if 0.0 < values.real_time_factor < SLOWEST:
         raise ValueError(too_slow(values.real_time_factor))
+    reason = transforms.objection(values) if values.publish_tf else ''
+    if reason:
+        raise ValueError(reason)
     return values
 
 
-def too_slow(factor):
-    """Why a real-time `factor` is refused."""
+def too_slow(factor: float) -> str:
+    """Say why a real-time `factor` is refused."""
     return f'real_time_factor {factor:g} must be 0, as fast as it can, or at least {SLOWEST:g}'
 
 
-def declare(node, name, default):
+def declare(node: Node, name: str, default: Any) -> Any:
     """Declare the parameter `name` of `node`, and give its value."""
     ranges = (
         [FloatingPointRange(from_value=RANGE[name][0], to_value=RANGE[name][1])]
@@ -110,11 +118,11 @@ def declare(node, name, default):
     )
     value = list(default) if isinstance(default, tuple) else default
     value = node.declare_parameter(name, value, descriptor).value
-    # ROS has no type for [], only None
+    # ROS has no type for [], only None.
     return tuple(value or ()) if isinstance(default, tuple) else value
 
 
-def checked(publishes_clock, parameters):
+def checked(publishes_clock: bool, parameters: Sequence[Parameter]) -> SetParametersResult:
     """Whether `parameters` may be set while the node runs, and why not."""
     for parameter in parameters:
         reason = objection(publishes_clock, parameter.name, parameter.value)
@@ -123,8 +131,8 @@ def checked(publishes_clock, parameters):
     return SetParametersResult(successful=True)
 
 
-def objection(publishes_clock, name, value):
-    """Why the parameter `name` can't become `value`, or ''."""
+def objection(publishes_clock: bool, name: str, value: Any) -> str:
+    """Say why the parameter `name` can't become `value`, or ''."""
     if name == 'accuracy' and value not in ACCURACY:
         return f'accuracy {value!r} is unknown; known: {", ".join(ACCURACY)}'
     if name == 'real_time_factor' and 0.0 < value < SLOWEST:

@@ -14,6 +14,7 @@
 
 """How many ticks of simulated time are due by the wall clock."""
 
+from collections.abc import Iterator
 from time import monotonic
 
 
@@ -34,18 +35,20 @@ class RealTime:
         Simulated seconds a wall second; 0: as fast as it can. May be set.
     """
 
-    def __init__(self, tick, usual, factor=1.0):
-        self.tick, self.usual, self.factor = tick, usual, factor
+    def __init__(self, tick: float, usual: int, factor: float = 1.0) -> None:
+        self.tick = tick
+        self.usual = usual
+        self.factor = factor
         self.seen = monotonic()
         self.saved = 0.0
         self.lost = 0.0
 
     @property
-    def hurries(self):
+    def hurries(self) -> bool:
         """Whether time passes as fast as it can."""
         return self.factor == 0.0
 
-    def portions(self, limit, busy):
+    def portions(self, limit: float, busy: float) -> Iterator[int]:
         """Ticks to do now, in portions after each of which it is time to publish.
 
         At most `limit` [s] of wall time count; where time `hurries`, ticks go on for `busy` [s] of
@@ -63,8 +66,8 @@ class RealTime:
             ticks -= self.usual
         yield ticks
 
-    def due(self, limit):
-        """Number of ticks to do now; at most `limit` [s] of wall time count."""
+    def due(self, limit: float) -> int:
+        """Count the ticks to do now; at most `limit` [s] of wall time count."""
         now = monotonic()
         elapsed = now - self.seen
         self.seen = now
@@ -74,6 +77,6 @@ class RealTime:
         self.saved -= ticks * self.tick
         return ticks
 
-    def skip(self):
+    def skip(self) -> None:
         """Drop the wall time since the last call: the simulation was paused."""
         self.seen = monotonic()

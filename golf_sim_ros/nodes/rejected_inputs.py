@@ -16,6 +16,8 @@
 
 from collections import Counter
 
+from rclpy.impl.rcutils_logger import RcutilsLogger
+
 KINDS = ('shot', 'wind', 'place')
 
 
@@ -27,11 +29,11 @@ class RejectedInputs:
     log : rclpy.impl.rcutils_logger.RcutilsLogger
     """
 
-    def __init__(self, log):
+    def __init__(self, log: RcutilsLogger) -> None:
         self.logs = {kind: log.get_child(kind) for kind in KINDS}
-        self.counts = Counter()
+        self.counts: Counter[str] = Counter()
 
-    def warn(self, kind, reason):
+    def warn(self, kind: str, reason: str) -> None:
         """Count one more rejected input of `kind`, and warn of it with its `reason`."""
         self.counts[kind] += 1
         self.logs[kind].warning(

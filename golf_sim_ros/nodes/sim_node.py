@@ -14,14 +14,19 @@
 
 """The node that plays: subscribes to shots and wind, publishes the play."""
 
+from collections.abc import Callable, Sequence
 from functools import partial
 import sys
 from time import perf_counter
+from typing import Any, Optional
 
 from geometry_msgs.msg import PointStamped, Twist, Vector3Stamped
 from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import qos_policy_name_from_kind, QoSProfile, ReliabilityPolicy
+from rclpy.subscription import Subscription
 from std_srvs.srv import SetBool, Trigger
 
 from .conversions import triple
@@ -29,7 +34,7 @@ from .game import Game
 from .lifecycle import run
 from .log_lines import effect_lines, with_reasons
 from .older_rclpy import after_set, SubscriptionEventCallbacks, UnsupportedEventTypeError
-from .parameters import checked, declared, PROGRAM
+from .parameters import checked, declared, Parameters, PROGRAM
 from .publishers import Publishers
 from .rejected_inputs import RejectedInputs
 from .takeover import load_compiled, Takeover
@@ -59,7 +64,13 @@ class SimNode(Node):
         A parameter or the course cannot be used; the message is one line.
     """
 
-    def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
+    def __init__(
+        self,
+        *,
+        context: Optional[Context] = None,
+        namespace: str | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
         super().__init__(
             'golf_sim',
             context=context,
@@ -68,7 +79,8 @@ class SimNode(Node):
         )
         given = declared(self)
         self.world = self.new_world(given)
-        self.frame, self.rejected_inputs = given.frame_id, RejectedInputs(self.get_logger())
+        self.frame = given.frame_id
+        self.rejected_inputs = RejectedInputs(self.get_logger())
         self.topics = Publishers(self, self.world, given, self.on_viewer, self.on_follower)
         takeover = Takeover(self.world, given.engine, self.get_logger())
         self.game = Game(
@@ -82,8 +94,8 @@ class SimNode(Node):
         self.heart = self.create_timer(HEARTBEAT, self.on_heartbeat, clock=steady)
         self.introduce()
 
-    def new_world(self, given):
-        """`World` as `given`, ready: no shot shall wait for a compiler."""
+    def new_world(self, given: Parameters) -> World:
+        """Make the `World` as `given`, ready: no shot shall wait for a compiler."""
         began = perf_counter()
         world = World(
             load_course(given.course), given.balls, given.effects, given.accuracy, engine='python'
@@ -95,7 +107,7 @@ class SimNode(Node):
         )
         return world
 
-    def subscribe(self, given):
+    def subscribe(self, given: Parameters) -> None:
         """Create the inputs: subscriptions, services, live parameters."""
         first = self.world.names[0]
         self.strikes = self.hear_strikes('shot', first)
@@ -110,7 +122,7 @@ class SimNode(Node):
         self.add_on_set_parameters_callback(partial(checked, given.publish_clock))
         after_set(self, self.on_parameters)
 
-    def hear_strikes(self, topic, name):
+    def hear_strikes(self, topic: str, name: str) -> Subscription:
         """Subscribe to strikes of a ball.
 
         Those that do not arrive are reported, where DDS knows of them.
@@ -128,7 +140,7 @@ class SimNode(Node):
         except UnsupportedEventTypeError:  # a middleware that cannot report it
             return self.create_subscription(Twist, topic, on_strike, COMMANDS)
 
-    def on_unheard(self, topic, event):
+    def on_unheard(self, topic: str, event: Any) -> None:
         """Warn of a publisher of strikes whose QoS does not match."""
         if event.total_count_change > 0:
             policy = qos_policy_name_from_kind(event.last_policy_kind)
@@ -137,11 +149,11 @@ class SimNode(Node):
                 'strikes must be published reliable'
             )
 
-    def on_lost(self, event):
+    def on_lost(self, event: Any) -> None:
         """Count strikes that arrived and were dropped before a callback got them."""
         self.game.diagnostics.strikes_lost += event.total_count_change
 
-    def introduce(self):
+    def introduce(self) -> None:
         """Log what is played, what is simulated, and how to strike."""
         log, world = self.get_logger(), self.world
         log.info(f'course: {world.course.name} ({world.course.path})')
@@ -158,18 +170,18 @@ class SimNode(Node):
             f"{self.strikes.topic_name} geometry_msgs/msg/Twist '{EXAMPLE}'"
         )
 
-    def on_shot(self, name, message):
+    def on_shot(self, name: str, message: Twist) -> None:
         """Store a strike for the next step."""
         self.store(
             partial(self.game.strike, name, triple(message.linear), triple(message.angular))
         )
 
-    def on_place(self, name, message):
+    def on_place(self, name: str, message: PointStamped) -> None:
         """Store a place for the next step."""
         if self.in_frame('place', message):
             self.store(partial(self.game.place, name, triple(message.point)))
 
-    def on_wind(self, message):
+    def on_wind(self, message: Vector3Stamped) -> None:
         """Store the wind; it blows from the next step on."""
         if not self.in_frame('wind', message):
             return
@@ -180,11 +192,8 @@ class SimNode(Node):
             return
         self.game.diagnostics.note_wind()
 
-    def in_frame(self, kind, message):
-        """Whether `message` is in the course's frame or has an empty one.
-
-        If not, it is rejected.
-        """
+    def in_frame(self, kind: str, message: Any) -> bool:
+        """Whether `message` is in the frame of the course, or in none; if not, it is rejected."""
         frame = message.header.frame_id
         if frame in ('', self.frame):
             return True
@@ -192,17 +201,17 @@ class SimNode(Node):
         self.rejected_inputs.warn(kind, f'frame {shown!r} is not {self.frame!r}')
         return False
 
-    def on_viewer(self):
+    def on_viewer(self) -> None:
         """Publish the course once more, for a new subscription."""
         self.game.course_due = True
         self.wake()
 
-    def on_follower(self):
+    def on_follower(self) -> None:
         """Publish where the balls are, for a new subscription."""
         self.game.all_due = True
         self.wake()
 
-    def on_reset(self, request, response):
+    def on_reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         """Put all balls back, after the inputs that arrived before."""
         self.game.inputs.append(self.game.reset)
         self.game.apply()
@@ -210,7 +219,7 @@ class SimNode(Node):
         response.success, response.message = True, 'every ball is back at the start'
         return response
 
-    def on_pause(self, request, response):
+    def on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         """Pause simulated time, or let it go on."""
         self.game.advance()
         self.game.paused = request.data
@@ -218,7 +227,7 @@ class SimNode(Node):
         response.success, response.message = True, 'paused' if request.data else 'playing'
         return response
 
-    def on_parameters(self, parameters):
+    def on_parameters(self, parameters: Sequence[Parameter]) -> None:
         """Apply the parameters that may change while the node runs."""
         for parameter in parameters:
             if parameter.name == 'accuracy':
@@ -227,12 +236,12 @@ class SimNode(Node):
                 self.game.set_real_time_factor(parameter.value)
                 self.wake()
 
-    def store(self, act):
+    def store(self, act: Callable[[], None]) -> None:
         """Store `act`, to be called by the next step."""
         self.game.inputs.append(act)
         self.wake()
 
-    def wake(self):
+    def wake(self) -> None:
         """Start the timer.
 
         One that runs is left alone, or a flood of messages would hold it up.
@@ -240,24 +249,24 @@ class SimNode(Node):
         if self.timer.is_canceled():
             self.timer.reset()
 
-    def on_timer(self):
+    def on_timer(self) -> None:
         """Do one step; at rest stop the timer, so that a ball at rest costs next to nothing."""
         self.game.step()
         if self.game.asleep:
             self.timer.cancel()
 
-    def on_heartbeat(self):
+    def on_heartbeat(self) -> None:
         """Publish the heartbeat; a node that hangs does not."""
         self.topics.heartbeat(self.game.shots, self.game.paused)
 
-    def on_beat(self):
+    def on_beat(self) -> None:
         """Publish everything, and the diagnostics: once a second, moving or not."""
         self.game.all_due = True
         self.game.step()
         self.game.diagnose()
 
 
-def main(args=None):
+def main(args: list[str] | None = None) -> int:
     """Run the simulator until a signal ends it; return the exit code."""
     return run(SimNode, PROGRAM, args)
 

@@ -12,10 +12,15 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""When the compiled engine takes over from plain Python: where the play calls for it, between shots."""
+"""When the compiled engine takes over from plain Python.
 
-from ..physics import EngineUnavailable
-from ..physics.jit.build import BUILD_FAILED, missing, READY
+Where the play calls for it, between shots.
+"""
+
+from rclpy.impl.rcutils_logger import RcutilsLogger
+
+from ..physics import EngineUnavailable, World
+from ..physics.jit.build import Build, BUILD_FAILED, missing, READY
 
 A_THIRD = 1.0 / 3.0  # of a core, for a play: above that a compiler is worth its while
 LEAST = 2.0  # s of motion before the share means anything
@@ -37,14 +42,16 @@ class Takeover:
         Gets a line for each change of engine.
     """
 
-    def __init__(self, world, wanted, log):
-        self.world, self.log = world, log
-        self.build, self.is_open = None, wanted == 'auto'
+    def __init__(self, world: World, wanted: str, log: RcutilsLogger) -> None:
+        self.world = world
+        self.log = log
+        self.build: Build | None = None
+        self.is_open = wanted == 'auto'
         self.spent = self.passed = 0.0  # s of processor and of wall time while balls moved
         self._why = f'asked for: {wanted}'
 
     @property
-    def why(self):
+    def why(self) -> str:
         """One line on why the engine is what it is."""
         if not self.is_open:
             return self._why
@@ -54,12 +61,12 @@ class Takeover:
         return f'{taken}; {self.build.state}, {self.build.progress:.0%} done'
 
     @property
-    def share(self):
+    def share(self) -> float:
         """Share of a core that this process takes while balls move, 0 before that is known."""
         return self.spent / self.passed if self.passed > LEAST else 0.0
 
-    def note(self, spent, passed):
-        """Note that this process `spent` so much processor time [s] in `passed` [s], while balls moved."""
+    def note(self, spent: float, passed: float) -> None:
+        """Note the processor time [s] `spent` by this process in `passed` [s] of moving balls."""
         if not self.is_open:
             return
         if self.passed > MOST:
@@ -68,7 +75,7 @@ class Takeover:
         if self.build is None and self.share > A_THIRD:
             self.call_for_compiler()
 
-    def call_for_compiler(self):
+    def call_for_compiler(self) -> None:
         """Have the compiled engine built meanwhile.
 
         Where there can be none, log what to install.
@@ -79,12 +86,12 @@ class Takeover:
         self.build = self.world.build()
         self.log.info(f'{self.why}: a child process compiles the physics, and the play goes on')
 
-    def stay(self, reason):
+    def stay(self, reason: str) -> None:
         """Stay with plain Python for good."""
         self.log.warning(f'{self.why}, and goes on so: {reason}')
         self.is_open, self._why = False, reason
 
-    def between_shots(self):
+    def between_shots(self) -> None:
         """Take over if the compiled engine is ready; to be called while every ball rests."""
         if not self.is_open or self.build is None or not self.build.wait(0.0):
             return
@@ -95,12 +102,12 @@ class Takeover:
         self._why = f'the play in plain Python took {self.share:.0%} of a core'
         self.log.info(f'the compiled engine takes over: {self._why}')
 
-    def values(self):
+    def values(self) -> dict[str, str]:
         """Values for the diagnostics, texts by name."""
         return {'engine': self.world.engine, 'engine, why': self.why}
 
 
-def load_compiled(world, log):
+def load_compiled(world: World, log: RcutilsLogger) -> None:
     """Let `world` run on the compiled engine, waiting for the compiler if need be.
 
     Raises

@@ -14,13 +14,18 @@
 
 """The wind generator: publishes gusts, a new one every ten seconds, on `wind`."""
 
+from collections.abc import Sequence
 import sys
+from typing import Any, Optional
 
 from geometry_msgs.msg import Vector3Stamped
 import numpy as np
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+from rclpy.context import Context
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
 
 from .command_line import Program
 from .lifecycle import run
@@ -79,7 +84,13 @@ class WindNode(Node):
     parameter_overrides : list of rclpy.parameter.Parameter, optional
     """
 
-    def __init__(self, *, context=None, namespace=None, parameter_overrides=None):
+    def __init__(
+        self,
+        *,
+        context: Optional[Context] = None,
+        namespace: str | None = None,
+        parameter_overrides: list[Parameter] | None = None,
+    ) -> None:
         super().__init__(
             'wind_generator',
             context=context,
@@ -95,7 +106,7 @@ class WindNode(Node):
         after_set(self, self._take_over)
         self._timer = self.create_timer(1.0 / given['publish_rate'], self._publish)
 
-    def _declare(self, name):
+    def _declare(self, name: str) -> Any:
         """Declare the parameter `name` with its range and description, and give its value."""
         default, (least, greatest) = DEFAULTS[name], RANGES.get(name, (None, None))
         descriptor = ParameterDescriptor(description=MEANING[name], read_only=name in READ_ONLY)
@@ -107,18 +118,18 @@ class WindNode(Node):
             descriptor.integer_range = [IntegerRange(from_value=least, to_value=greatest)]
         return self.declare_parameter(name, default, descriptor).value
 
-    def _seed(self, wanted):
+    def _seed(self, wanted: int) -> int:
         """Seed that is `wanted`, or a fresh one for -1; logged."""
         seed = int(np.random.SeedSequence().generate_state(1)[0]) if wanted == -1 else wanted
         self.get_logger().info(f'seed {seed}: the same gusts come again with -p seed:={seed}')
         return seed
 
-    def _settings(self):
+    def _settings(self) -> GustSettings:
         return GustSettings(
             **{name: self.get_parameter(name).value for name in GustSettings._fields}
         )
 
-    def _time(self, now):
+    def _time(self, now: Time) -> float:
         """Time of the gusts [s]: simulated time itself, or wall time since the start.
 
         So equal seeds blow equal winds whenever nodes join a simulation, and one that starts again
@@ -127,11 +138,11 @@ class WindNode(Node):
         since = 0 if self.get_clock().ros_time_is_active else self._started_at.nanoseconds
         return (now.nanoseconds - since) / 1e9
 
-    def _take_over(self, parameters):
+    def _take_over(self, parameters: Sequence[Parameter]) -> None:
         if any(parameter.name in GustSettings._fields for parameter in parameters):
             self._gusts.change(self._settings(), self._time(self.get_clock().now()))
 
-    def _publish(self):
+    def _publish(self) -> None:
         now = self.get_clock().now()
         message = Vector3Stamped()
         message.header.stamp = now.to_msg()
@@ -141,8 +152,8 @@ class WindNode(Node):
         self._publisher.publish(message)
 
 
-def main(args=None):
-    """Run the wind generator until a signal ends it."""
+def main(args: list[str] | None = None) -> int:
+    """Run the wind generator until a signal ends it; return the exit code."""
     return run(WindNode, PROGRAM, args)
 
 

@@ -14,39 +14,46 @@
 
 """Batch of shots, each from the tee: the choice of the engine, and their results."""
 
-from typing import NamedTuple
+from typing import Any, Callable, Iterable, NamedTuple, Optional, Union
 
 import numpy as np
 
 from . import jit
+from .effects import EffectNames
 from .engine.engines import LOG, Program
-from .engine.event_loop import play_all
+from .engine.event_loop import play_all, Schedule
 from .jit.build import READY
 from .response.contact_set import clear_set
 from .result import summary
 from .scene.course_record import Course
+from .scene.kernel_model import Nothing
+from .scene.presets import Preset
 from .state.ball import ENDED
 from .trajectory.shot_record import begin_shot, copy_result, fail, NOT_FINITE
 from .world import World
 
 PART = 5000  # shots between two updates of the progress
-# plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute
+# Plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute.
 FEW_SHOTS, MANY_SHOTS = 20, 200
 SHORT_WAIT = 5.0  # s: loading is over by then
 ANY_SHOT = np.array([[1.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
 
+# Gives back the parts of a whole, of which there are ``total``, and shows how far they are.
+Progress = Callable[..., Iterable[Any]]
+
 
 class Batch(NamedTuple):
-    """Common input of many shots; `engine`: 'python' or 'compiled'."""
+    """Common input of many shots; `engine`: 'python' or 'compiled'; `live` but the wind."""
 
     course: Course
     gusts: np.ndarray
-    effects: object
-    accuracy: object
+    effects: EffectNames
+    accuracy: Union[str, Preset]
     engine: str
+    live: dict[str, Iterable[float]]
 
 
-def batch_engine(batch, shots):
+def batch_engine(batch: Batch, shots: int) -> str:
     """Engine that pays for so many `shots`; the compiled one has been loaded then."""
     if shots < FEW_SHOTS:
         return 'python'
@@ -65,15 +72,21 @@ def batch_engine(batch, shots):
     return 'compiled'
 
 
-def world_of(batch):
+def world_of(batch: Batch) -> World:
     """`World` of a batch. The strongest gust decides whether wind is simulated."""
     wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
     return World(
-        batch.course, effects=batch.effects, accuracy=batch.accuracy, wind=wind, engine='python'
+        batch.course,
+        ('ball',),
+        batch.effects,
+        batch.accuracy,
+        engine='python',
+        wind=wind,
+        **batch.live,
     )
 
 
-def played(batch, strikes, progress=None):
+def played(batch: Batch, strikes: np.ndarray, progress: Optional[Progress] = None) -> np.ndarray:
     """Results of the `strikes` of a batch.
 
     Effects stay off, so no dormant record is compiled in.
@@ -81,7 +94,8 @@ def played(batch, strikes, progress=None):
     world = world_of(batch)
     play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    scene = world._model, world._balls, batch.gusts, world._workspace, world._log
+    blowing = Schedule(world._chosen.on.get('wind', Nothing()), batch.gusts)
+    scene = world._model, world._balls, blowing, world._workspace, world._log
     found = [
         ends(play, scene, part)
         for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)
@@ -89,15 +103,17 @@ def played(batch, strikes, progress=None):
     return summary(np.concatenate(found), batch.course.hole, world._labels.materials)
 
 
-def ends(play, scene, strikes):
-    """Ends of `strikes`, an `ENDED` array.
+def ends(
+    play: Callable[..., np.ndarray], scene: tuple[Any, ...], strikes: np.ndarray
+) -> np.ndarray:
+    """Play `strikes` to their ends, an `ENDED` array.
 
     A shot for which plain Python raises an arithmetic error fails.
     """
-    model, balls, gusts, work, log = scene
+    model, balls, schedule, work, log = scene
     try:
         with np.errstate(all='ignore'):
-            return play(model, balls, strikes, gusts, work, log)
+            return play(model, balls, strikes, schedule, work, log)
     except (ArithmeticError, ValueError):
         clear_set(work)  # bisection finds the shot
         if len(strikes) > 1:
@@ -110,8 +126,8 @@ def ends(play, scene, strikes):
     return end
 
 
-def progress_bar(parts, total):
-    """Iterable of `parts` with a progress bar on a terminal, from two seconds on, if tqdm is installed."""
+def progress_bar(parts: Iterable[np.ndarray], total: int) -> Iterable[np.ndarray]:
+    """Wrap `parts` in a progress bar, on a terminal, from two seconds on, if tqdm is installed."""
     try:
         from tqdm import tqdm
     except ImportError:

@@ -14,40 +14,16 @@
 
 """Live parameters: what of an effect may change while balls move, by the effect's name.
 
-A `World` hands them to `Scene` as fields of these names; its state, journals and replays carry
-them all.
+Each is the ``LIVE`` of its effect's module. A `World` takes them by these names and hands them to
+`Scene`; its state, journals and replays carry them all.
 """
 
-from math import isfinite
-from typing import Callable, NamedTuple
+from typing import Any, Mapping
 
-MOST_WIND = 100.0  # m/s
-
-
-def checked_wind(wind):
-    """Tuple of three floats of `wind`; ValueError where it is not finite or too strong."""
-    wind = tuple(map(float, wind))
-    if len(wind) != 3 or not all(map(isfinite, wind)):
-        raise ValueError(f'wind {wind} is not three finite numbers')
-    if sum(x * x for x in wind) > MOST_WIND * MOST_WIND:
-        raise ValueError(f'wind {wind} is over {MOST_WIND:g} m/s')
-    return wind
+from .effects import LIVE
 
 
-class Live(NamedTuple):
-    """A live parameter: what makes a tuple of floats of a value, or raises ValueError.
-
-    And its default.
-    """
-
-    check: Callable
-    default: tuple
-
-
-LIVE = {'wind': Live(checked_wind, (0.0, 0.0, 0.0))}
-
-
-def checked_live(effect, value):
+def checked_live(effect: str, value: Any) -> tuple[float, ...]:
     """Tuple of floats of a `value` for that `effect`.
 
     ValueError where there is none to set, or not this.
@@ -57,3 +33,19 @@ def checked_live(effect, value):
             f'effect {effect!r} has nothing that can be set; those that do: {", ".join(LIVE)}'
         )
     return LIVE[effect].check(value)
+
+
+def live_values(given: Mapping[str, Any]) -> dict[str, tuple[float, ...]]:
+    """Live parameters of all effects by name: what is `given` as keywords, else the defaults.
+
+    TypeError where no effect has one of that name, ValueError where it is no value for it.
+    """
+    for name in given:
+        if name not in LIVE:
+            raise TypeError(
+                f'unexpected keyword argument {name!r}; live parameters: {", ".join(LIVE)}'
+            )
+    return {
+        name: checked_live(name, given[name]) if name in given else live.default
+        for name, live in LIVE.items()
+    }

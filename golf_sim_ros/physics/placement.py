@@ -15,16 +15,18 @@
 """Placement: where balls are teed, put down and dropped, and where they can't be."""
 
 from math import atan2, cos, hypot, inf, isfinite, pi, sin
-from typing import Callable, NamedTuple
+from typing import Callable, Iterable, Iterator, NamedTuple, Optional, Sequence
 
 import numpy as np
 
 from .collision.ground_contact import RESTING_GAP
 from .geometry import surfaces
 from .geometry.solid import FLAGSTICK_RADIUS, without
+from .kernel_types import BallRecord, Vector
 from .mechanics.vector import ZERO
 from .result import three
 from .scene.course_record import Course
+from .scene.kernel_model import Model
 from .state.ball import FAILED, HOLED, LAUNCH, REST
 
 APART = 0.5  # m between balls on the tee
@@ -40,18 +42,21 @@ class NoPlace(ValueError):
 
 
 class Site(NamedTuple):
-    """What balls are placed on: a course, its model for kernels, and what an engine lowers balls with.
+    """What balls are placed on: a course, its model for kernels, and an engine's `put_down`.
 
-    ``is_shared``: balls touch each other, so no two are put at one place.
+    That lowers balls onto the ground. ``is_shared``: balls touch each other, so no two are put at
+    one place.
     """
 
     course: Course
-    model: NamedTuple
-    put_down: Callable
+    model: Model
+    put_down: Callable[..., tuple[bool, float, bool]]
     is_shared: bool
 
 
-def checked_start(position, velocity, spin):
+def checked_start(
+    position: Iterable[float], velocity: Optional[Iterable[float]], spin: Optional[Iterable[float]]
+) -> tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]]:
     """Tuples of floats, each None as zeros.
 
     `NoPlace` where one is not finite or it is too far away.
@@ -66,14 +71,14 @@ def checked_start(position, velocity, spin):
     return position, velocity, spin
 
 
-def tee_places(course, count):
+def tee_places(course: Course, count: int) -> list[tuple[float, float]]:
     """Places x, y of so many balls side by side at the tee."""
     x, y = course.tee[:2]
     apart = max(APART, BESIDE * course.ball.radius)
     return [(x, y + apart * (i - 0.5 * (count - 1))) for i in range(count)]
 
 
-def unfit(tee, names, number, reason):
+def unfit(tee: Sequence[float], names: Sequence[str], number: int, reason: object) -> str:
     """Reason why the ball of that number can't be teed up, alone or beside others."""
     if len(names) == 1:
         return f'tee {list(tee)} must be where a ball can lie: {reason}'
@@ -83,7 +88,7 @@ def unfit(tee, names, number, reason):
     )
 
 
-def placed(site, balls, number, position):
+def placed(site: Site, balls: np.ndarray, number: int, position: Sequence[float]) -> BallRecord:
     """Record of the ball of that number, put down at x, y or x, y, z.
 
     `NoPlace` where it is not free.
@@ -95,7 +100,7 @@ def placed(site, balls, number, position):
     return ball
 
 
-def put_ball_down(site, ball, position):
+def put_ball_down(site: Site, ball: BallRecord, position: Sequence[float]) -> None:
     """Put a `ball` record at x, y, z, or on the ground at x, y; `NoPlace` where it can't be."""
     land = site.model.land
     bare = site.model._replace(land=land._replace(ground=without(land.ground)))
@@ -112,29 +117,35 @@ def put_ball_down(site, ball, position):
         raise NoPlace(f'position {position} lies in water')
 
 
-def beside_flagstick(site, x, y):
+def beside_flagstick(site: Site, x: float, y: float) -> tuple[float, float]:
     """x, y in the hole, moved to where a ball drops in beside the flagstick.
 
     Any other as they are.
     """
-    ground, radius, course = site.model.land.ground, site.model.land.ball.radius, site.course
-    away = hypot(x - course.hole[0], y - course.hole[1]) if course.hole else inf
-    room = FLAGSTICK_RADIUS + radius + surfaces.SAME_HEIGHT
-    if not course.flagstick or away >= room or room + radius > ground.hole[2]:
+    ground, radius, hole = site.model.land.ground, site.model.land.ball.radius, site.course.hole
+    if not hole or not site.course.flagstick:
         return x, y
-    towards = atan2(y - course.hole[1], x - course.hole[0])
-    return course.hole[0] + room * cos(towards), course.hole[1] + room * sin(towards)
+    away = hypot(x - hole[0], y - hole[1])
+    room = FLAGSTICK_RADIUS + radius + surfaces.SAME_HEIGHT
+    if away >= room or room + radius > ground.hole[2]:
+        return x, y
+    towards = atan2(y - hole[1], x - hole[0])
+    return hole[0] + room * cos(towards), hole[1] + room * sin(towards)
 
 
-def lowered(put_down, model, ball, place):
+def lowered(
+    put_down: Callable[..., tuple[bool, float, bool]],
+    model: Model,
+    ball: BallRecord,
+    place: tuple[float, float],
+) -> Vector:
     """Position of a `ball` record that is lowered onto the ground of `model` at x, y.
 
     Writes the ball.
     """
     x, y = place
     ground, radius = model.land.ground, model.land.ball.radius
-    # over a steep plane a ball touches higher up
-    for room in (3 * radius, 30 * radius, 300 * radius):
+    for room in (3 * radius, 30 * radius, 300 * radius):  # a steep plane is touched higher up
         top = max(surfaces.look_down(ground, x, y)[0], ground.highest) + room
         touches, inside, _ = put_down(
             model, ball, (x, y, top), min(top - ground.lowest + room, FALL)
@@ -144,7 +155,7 @@ def lowered(put_down, model, ball, place):
     raise NoPlace(f'no ground at x {x:g}, y {y:g}')
 
 
-def is_free(site, balls, number, place):
+def is_free(site: Site, balls: np.ndarray, number: int, place: Sequence[float]) -> bool:
     """Whether a ball at `place` overlaps no ball but that of `number`."""
     if not site.is_shared:
         return True
@@ -154,7 +165,7 @@ def is_free(site, balls, number, place):
     return not (apart < 2.0 * site.model.land.ball.radius - surfaces.SAME_HEIGHT).any()
 
 
-def lay(site, balls, number, ball, now):
+def lay(site: Site, balls: np.ndarray, number: int, ball: BallRecord, now: float) -> None:
     """Lay the ball of that number where `placed` has put its record, from `now` on; write `balls`.
 
     Balls that sleep on it where it was wake up.
@@ -170,7 +181,7 @@ def lay(site, balls, number, ball, now):
     laid['struck'], laid['struck_at'] = now, laid['position']
 
 
-def wake_leaning(site, balls, number, now):
+def wake_leaning(site: Site, balls: np.ndarray, number: int, now: float) -> None:
     """Wake the balls that sleep on a ball which is taken away."""
     apart = np.linalg.norm(balls['position'] - balls['position'][number], axis=1)
     leaning = (
@@ -179,11 +190,19 @@ def wake_leaning(site, balls, number, now):
         & (apart <= 2.0 * (site.model.land.ball.radius + RESTING_GAP))
     )
     leaning[number] = False
-    balls['end'][leaning], balls['ending'][leaning] = now, LAUNCH
-    balls['moved_by_ball'][leaning], balls['struck_at'][leaning] = 1, balls['position'][leaning]
+    for other in np.flatnonzero(leaning):
+        set_off(balls[other], now)
 
 
-def drop(site, balls, number, peg, now):
+def set_off(ball: BallRecord, now: float) -> None:
+    """Let a `ball` record at rest set off `now`, if it can."""
+    ball['end'], ball['ending'] = now, LAUNCH
+    ball['moved_by_ball'], ball['struck_at'] = 1, ball['position']
+
+
+def drop(
+    site: Site, balls: np.ndarray, number: int, peg: Optional[Sequence[float]], now: float
+) -> None:
     """Drop a lost ball where it was struck, or beside a ball that lies there by `now`.
 
     Write `balls`.
@@ -207,7 +226,7 @@ def drop(site, balls, number, peg, now):
         ball['end'], ball['ending'] = now, LAUNCH
 
 
-def spots(place, radius):
+def spots(place: Vector, radius: float) -> Iterator[tuple[float, float, float, float]]:
     """Candidate spots for a dropped ball: its `place`, then rings around it.
 
     Yields x, y, z, and how far above and below that ground may lie.

@@ -14,20 +14,24 @@
 
 """Reporting: the engine's log as collisions and results, with names for its numbers."""
 
-from typing import NamedTuple, Optional
+from typing import NamedTuple, Optional, Union
 
-from .result import Collision, COLLISION_KINDS, failure, result
+import numpy as np
+
+from .result import Collision, COLLISION_KINDS, failure, Result, result
 from .state.ball import FAILED, OUT, WATER
-from .state.events import BALL_HIT, LOST, SHOT_ENDS, WATER_HIT, WENT_OUT
+from .state.events import BALL_HIT, Log, LOST, SHOT_ENDS, WATER_HIT, WENT_OUT
 from .state.serialize import plain_rows
+
+Happening = Union[Collision, Result]  # what a world tells of
 
 
 class Labels(NamedTuple):
     """Names of the `balls` and the `materials` by number, and where the `hole` is, or None."""
 
-    balls: tuple
-    materials: tuple
-    hole: Optional[tuple]
+    balls: tuple[str, ...]
+    materials: tuple[str, ...]
+    hole: Optional[tuple[float, float]]
 
 
 class Report(NamedTuple):
@@ -36,19 +40,20 @@ class Report(NamedTuple):
     ``lost``: numbers of the balls that are to be dropped; ``failures``: why balls could not go on.
     """
 
-    events: list
-    lost: list
-    failures: list
+    events: list[Happening]
+    lost: list[int]
+    failures: list[str]
 
 
-def report(log, balls, labels, start):
+def report(log: Log, balls: np.ndarray, labels: Labels, start: float) -> Report:
     """`Report` of the logged events, which empties the log.
 
-    A failed shot no longer counts as a stroke.
-
-    `start` is the world's time at the zero of the engine's clock.
+    A failed shot no longer counts as a stroke. `start` is the world's time at the zero of the
+    engine's clock.
     """
-    events, lost, failures = [], [], []
+    events: list[Happening] = []
+    lost: list[int] = []
+    failures: list[str] = []
     for time, number, kind, other, sort, *vectors in plain_rows(log.events[: log.count[0]]):
         ball, name = balls[number], labels.balls[number]
         if kind == SHOT_ENDS:
@@ -64,7 +69,7 @@ def report(log, balls, labels, start):
     return Report(events, lost, failures)
 
 
-def hit(labels, kind, other, sort):
+def hit(labels: Labels, kind: int, other: int, sort: int) -> tuple[str, str]:
     """Kind of a logged collision, and name of the material or ball that was hit."""
     if kind == BALL_HIT:
         return 'ball', labels.balls[other]
@@ -74,8 +79,11 @@ def hit(labels, kind, other, sort):
     return ('out_of_bounds' if kind == WENT_OUT else COLLISION_KINDS[sort]), lie
 
 
-def aborted(balls, labels, clock, time):
-    """`Result` of each shot under way, which ends now: at `clock` for the engine, at the world's `time`."""
+def aborted(balls: np.ndarray, labels: Labels, clock: float, time: float) -> list[Result]:
+    """Abort each shot under way; their `Result`.
+
+    It ends now: at `clock` for the engine, at the world's `time`.
+    """
     under_way = [number for number, ball in enumerate(balls) if ball['shot_active']]
     balls['ended'][under_way] = clock
     return [

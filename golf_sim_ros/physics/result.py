@@ -12,16 +12,14 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What is told of a play: collisions, and a result for every shot.
-
-And why a strike is rejected.
-"""
+"""What is told of a play: collisions, a result for every shot, why a strike is rejected."""
 
 from math import hypot, isfinite
-from typing import NamedTuple, Optional
+from typing import Any, NamedTuple, Optional, Sequence
 
 import numpy as np
 
+from .kernel_types import BallRecord, Vector
 from .state.ball import Phase
 from .state.serialize import plain_rows
 from .trajectory.shot_record import MOST_WORK, NOT_FINITE, SUSTAINED_WORK, TOO_MUCH_WORK
@@ -38,13 +36,13 @@ class Collision(NamedTuple):
     ball: str
     kind: str
     with_: str
-    position: tuple
-    normal: tuple
-    velocity_before: tuple
-    velocity_after: tuple
-    spin_before: tuple
-    spin_after: tuple
-    impulse: tuple
+    position: Vector
+    normal: Vector
+    velocity_before: Vector
+    velocity_after: Vector
+    spin_before: Vector
+    spin_after: Vector
+    impulse: Vector
 
 
 class Result(NamedTuple):
@@ -77,16 +75,16 @@ class Result(NamedTuple):
     landing_angle: float
     bounces: int
     time: float
-    position: tuple
-    velocity: tuple
-    spin: tuple
+    position: Vector
+    velocity: Vector
+    spin: Vector
     reason: str = ''
     stroke: int = 1
     penalty: int = 0
 
 
 COSTS = ('water', 'out_of_bounds')  # statuses that cost a stroke: Rules of Golf 17.1d and 18.2b
-# by surface_protocol.sort of what is hit
+# By surface_protocol.sort of what is hit.
 COLLISION_KINDS = ('bounce', 'cup', 'flagstick', 'obstacle')
 STATUS = {
     Phase.REST: 'at_rest',
@@ -97,7 +95,9 @@ STATUS = {
 }
 FAULTS = {
     NOT_FINITE: 'its motion was not a number any more',
-    TOO_MUCH_WORK: f'its path took more than {MOST_WORK} segments beyond {SUSTAINED_WORK:.0f} a second',
+    TOO_MUCH_WORK: (
+        f'its path took more than {MOST_WORK} segments beyond {SUSTAINED_WORK:.0f} a second'
+    ),
 }
 MOVING = 'aborted'  # the status of a ball that is still on its way
 OVER_TIME = 'time_limit'
@@ -125,12 +125,13 @@ SUMMARY = np.dtype(
 )
 
 
-def three(row):
+def three(row: np.ndarray) -> Vector:
     """Tuple of floats from an array of three."""
-    return tuple(row.tolist())
+    x, y, z = row.tolist()
+    return x, y, z
 
 
-def summary(balls, hole, lies):
+def summary(balls: np.ndarray, hole: Optional[Sequence[float]], lies: Sequence[str]) -> np.ndarray:
     """Results of ended shots, a structured array with the fields of `Result`.
 
     `balls` is an array of `BALL` or `ENDED` records, `lies` the materials' names. Without a hole
@@ -162,17 +163,23 @@ def summary(balls, hole, lies):
     return told
 
 
-def way(balls, end):
-    """Horizontal distance from the strike to `end`, and its distance from the launch plane, left positive."""
+def way(balls: np.ndarray, end: str) -> tuple[np.ndarray, np.ndarray]:
+    """Horizontal distance from the strike to `end`, and its distance from the launch plane.
+
+    `end` is a field of `balls`; left is positive.
+    """
     dx = balls[end][:, 0] - balls['struck_at'][:, 0]
     dy = balls[end][:, 1] - balls['struck_at'][:, 1]
     heading = np.arctan2(balls['launch'][:, 1], balls['launch'][:, 0])  # 0 if launched upright
     return np.hypot(dx, dy), dy * np.cos(heading) - dx * np.sin(heading)
 
 
-def result(ball, name, time, hole, lies):
-    """`Result` of the shot of a `ball` record, which ended at the world's `time`."""
-    figures = dict(zip(SUMMARY.names, *plain_rows(summary(ball[np.newaxis], hole, lies))))
+def result(
+    ball: BallRecord, name: str, time: float, hole: Optional[Sequence[float]], lies: Sequence[str]
+) -> Result:
+    """Sum up the shot of a `ball` record, which ended at the world's `time`, as a `Result`."""
+    names = SUMMARY.names or ()
+    figures: dict[str, Any] = dict(zip(names, *plain_rows(summary(ball[np.newaxis], hole, lies))))
     figures['to_hole'] = None if hole is None else figures['to_hole']
     return Result(
         shot=int(ball['shot']),
@@ -185,7 +192,7 @@ def result(ball, name, time, hole, lies):
     )
 
 
-def failure(ball):
+def failure(ball: BallRecord) -> str:
     """Reason why the shot of a `ball` record failed, or ''."""
     if ball['phase'] != Phase.FAILED:
         return ''
@@ -198,7 +205,7 @@ MOST_SPEED = 150.0  # m/s
 MOST_SPIN = 2500.0  # rad/s
 
 
-def objection(velocity, spin):
+def objection(velocity: Sequence[float], spin: Sequence[float]) -> str:
     """Reason why a strike is rejected, or ''."""
     if not all(isfinite(x) for x in (*velocity, *spin)):
         return 'velocity or spin is not finite'
@@ -211,10 +218,13 @@ def objection(velocity, spin):
     return ''
 
 
-def suspects(velocities, spins):
-    """Mask of the strikes, rows of both (n, 3), that `objection` may reject: a fast, vectorised test."""
+def suspects(velocities: np.ndarray, spins: np.ndarray) -> np.ndarray:
+    """Mask of the strikes, rows of both (n, 3), that `objection` may reject.
+
+    A fast, vectorised test.
+    """
     size = np.stack(
         (np.einsum('ij,ij->i', velocities, velocities), np.einsum('ij,ij->i', spins, spins))
     )
     most = 0.999 * np.array([[MOST_SPEED * MOST_SPEED], [MOST_SPIN * MOST_SPIN]])
-    return ~((size <= most).all(0) & (size > 0.0).any(0))
+    return np.asarray(~((size <= most).all(0) & (size > 0.0).any(0)))

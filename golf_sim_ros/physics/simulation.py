@@ -14,19 +14,25 @@
 
 """Simulation of shots from strike to rest: one with its path, or many with their results."""
 
-from concurrent.futures import BrokenExecutor, CancelledError
+from concurrent.futures import BrokenExecutor, CancelledError, Executor
 from functools import partial
-from typing import NamedTuple
+from typing import Iterable, NamedTuple, Optional, Union
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from .batch import Batch, batch_engine, played, progress_bar
+from .batch import Batch, batch_engine, played, Progress, progress_bar
+from .effects import EffectNames
 from .engine.engines import checked_engine
 from .geometry import surfaces
-from .live_parameters import checked_wind
+from .live_parameters import checked_live
 from .mechanics.vector import ZERO
-from .result import objection, Result, suspects
+from .reporting import Happening
+from .result import Collision, objection, Result, suspects
 from .scene import kernel_model
+from .scene.course_record import Course
+from .scene.presets import Preset
+from .state.ball import Shot
 from .world import World
 
 
@@ -37,7 +43,7 @@ class Play(NamedTuple):
     """
 
     result: Result
-    collisions: tuple
+    collisions: tuple[Collision, ...]
     times: np.ndarray
     positions: np.ndarray
     velocities: np.ndarray
@@ -45,8 +51,15 @@ class Play(NamedTuple):
 
 
 def simulate(
-    course, shot, wind=ZERO, effects='auto', accuracy='standard', rate=100.0, engine='auto'
-):
+    course: Course,
+    shot: Shot,
+    wind: ArrayLike = ZERO,
+    effects: EffectNames = 'auto',
+    accuracy: Union[str, Preset] = 'standard',
+    rate: float = 100.0,
+    engine: str = 'auto',
+    **live: Iterable[float],
+) -> Play:
     """Play one shot from the tee to its end.
 
     Parameters
@@ -61,6 +74,7 @@ def simulate(
     rate : float
         Rows of the path a second. The shot itself does not depend on it.
     engine : str
+    **live
         See `World`.
 
     Returns
@@ -75,10 +89,11 @@ def simulate(
         See `World`.
     """
     gusts = checked_gusts(wind)
-    world = World(course, effects=effects, accuracy=accuracy, wind=gusts[0, 1:], engine=engine)
+    world = World(course, ('ball',), effects, accuracy, engine=engine, wind=gusts[0, 1:], **live)
     name = world.names[0]
     world.strike(name, shot.velocity, shot.spin)
-    rows, events, tick = [(0.0, *world[name][:3])], [], 0
+    rows, tick = [(0.0, *world[name][:3])], 0
+    events: list[Happening] = []
     while not any(isinstance(event, Result) for event in events):
         tick += 1
         events += _blown(world, tick / rate, gusts)
@@ -86,20 +101,20 @@ def simulate(
     end = next(event for event in events if isinstance(event, Result))
     rows[-1] = (end.time, end.position, ZERO, world[name].spin)
     times, positions, velocities, spins = map(np.array, zip(*rows))
-    collisions = tuple(event for event in events if event is not end)
+    collisions = tuple(event for event in events if isinstance(event, Collision))
     return Play(end, collisions, times, positions, velocities, spins)
 
 
-def _blown(world, until, gusts):
+def _blown(world: World, until: float, gusts: np.ndarray) -> list[Happening]:
     """Advance a world to the time `until`, through the `gusts` on the way; its events."""
-    events = []
+    events: list[Happening] = []
     for time, *wind in gusts[(gusts[:, 0] > world.time) & (gusts[:, 0] <= until)]:
         events += world.advance(time - world.time)
         world.set_wind(wind)
     return events + world.advance(until - world.time)
 
 
-def checked_gusts(wind):
+def checked_gusts(wind: ArrayLike) -> np.ndarray:
     """Table of gusts, rows of time, x, y, z, from `wind`, three numbers or such a table.
 
     Else ValueError.
@@ -114,22 +129,23 @@ def checked_gusts(wind):
     if table[0, 0] != 0.0 or not (np.diff(table[:, 0]) > 0.0).all():
         raise ValueError('the times of the wind must begin with 0 and rise')
     for row in table:
-        checked_wind(row[1:])
+        checked_live('wind', row[1:])
     return table
 
 
 def simulate_many(
-    course,
-    velocities,
-    spins,
-    wind=ZERO,
-    effects='auto',
-    accuracy='standard',
-    executor=None,
-    chunks=16,
-    progress=None,
-    engine='auto',
-):
+    course: Course,
+    velocities: ArrayLike,
+    spins: ArrayLike,
+    wind: ArrayLike = ZERO,
+    effects: EffectNames = 'auto',
+    accuracy: Union[str, Preset] = 'standard',
+    executor: Optional[Executor] = None,
+    chunks: int = 16,
+    progress: Optional[Progress] = None,
+    engine: str = 'auto',
+    **live: Iterable[float],
+) -> np.ndarray:
     """Play many shots, each from the tee.
 
     Parameters
@@ -148,6 +164,8 @@ def simulate_many(
     engine : str
         'python', 'compiled', or 'auto': compiled where there are so many shots that it is worth
         it; the log says so before this process waits for a compiler.
+    **live
+        See `World`.
 
     Returns
     -------
@@ -164,7 +182,7 @@ def simulate_many(
     strikes = checked_strikes(velocities, spins)
     gusts = checked_gusts(wind)
     progress = progress or progress_bar
-    batch = Batch(course, gusts, effects, accuracy, checked_engine(engine))
+    batch = Batch(course, gusts, effects, accuracy, checked_engine(engine), live)
     if batch.engine == 'auto':
         batch = batch._replace(engine=batch_engine(batch, len(strikes)))
     if executor is None:
@@ -181,7 +199,7 @@ def simulate_many(
         ) from error
 
 
-def checked_strikes(velocities, spins):
+def checked_strikes(velocities: ArrayLike, spins: ArrayLike) -> np.ndarray:
     """Velocities and spins side by side, (n, 6); ValueError where a shot can't be played."""
     velocities, spins = np.asarray(velocities, float), np.asarray(spins, float)
     if velocities.ndim != 2 or velocities.shape[1] != 3 or spins.shape != velocities.shape:
@@ -195,12 +213,12 @@ def checked_strikes(velocities, spins):
     return np.ascontiguousarray(np.hstack([velocities, spins]))
 
 
-def check_hole(course):
+def check_hole(course: Course) -> None:
     """Check that the ground around the course's hole can have one; ValueError where it can't."""
     kernel_model.ground(course)
 
 
-def ground_height(course, x, y):
+def ground_height(course: Course, x: float, y: float) -> Optional[tuple[float, str]]:
     """Height [m] and name of the material of the highest ground at `x`, `y`.
 
     None where there is none.

@@ -15,26 +15,30 @@
 """Recorded play, read from a rosbag2 bag (MCAP or sqlite3) with no ROS installed."""
 
 from collections import defaultdict
+from collections.abc import Callable, Hashable, Iterable, Iterator
 import json
+from os import PathLike
 from pathlib import Path
-from typing import NamedTuple, Optional
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from .bag_file import BagError, raw_messages
 from .journal import JournalError, opened
-from .journal_format import current
+from .journal_format import current, Entry
 from ..optional_packages import how_to_get
 
 __all__ = ['BagError', 'read_bag', 'Recording', 'Strike', 'Track']
 
-TEXT, POSE, TWIST, STRIKE, WIND = (
-    'std_msgs/msg/String',
-    'geometry_msgs/msg/PoseStamped',
-    'geometry_msgs/msg/TwistStamped',
-    'geometry_msgs/msg/Twist',
-    'geometry_msgs/msg/Vector3Stamped',
-)
+T = TypeVar('T')
+Received = tuple[int, Any]  # when a message was recorded [ns], and the message
+Parts = dict[Any, Any]  # list of Received by ball and name of the topic; 'start', if known [ns]
+
+TEXT = 'std_msgs/msg/String'
+POSE = 'geometry_msgs/msg/PoseStamped'
+TWIST = 'geometry_msgs/msg/TwistStamped'
+STRIKE = 'geometry_msgs/msg/Twist'
+WIND = 'geometry_msgs/msg/Vector3Stamped'
 OF_SIM = {'journal': TEXT, 'shot/result': TEXT, 'collisions': TEXT, 'shot': STRIKE, 'wind': WIND}
 OF_RESULT = {'shot': int, 'ball': str, 'status': str}  # what every result has, and every collision
 OF_COLLISION = {'time': (int, float), 'ball': str, 'kind': str, 'with': str}
@@ -61,8 +65,8 @@ class Strike(NamedTuple):
 
     received: int
     ball: str
-    velocity: tuple
-    spin: tuple
+    velocity: tuple[float, float, float]
+    spin: tuple[float, float, float]
 
 
 class Recording(NamedTuple):
@@ -87,27 +91,27 @@ class Recording(NamedTuple):
     """
 
     namespace: str
-    start: Optional[int]
-    journal: tuple
-    results: tuple
-    collisions: tuple
-    strikes: tuple
-    tracks: dict
+    start: int | None
+    journal: tuple[Entry, ...]
+    results: tuple[Entry, ...]
+    collisions: tuple[Entry, ...]
+    strikes: tuple[Strike, ...]
+    tracks: dict[str, Track]
     wind_times: np.ndarray
     winds: np.ndarray
 
     @property
-    def config(self):
+    def config(self) -> Entry | None:
         """The journal's first entry, or None where it has none."""
         return next((entry for entry in self.journal if entry['kind'] == 'config'), None)
 
-    def seconds(self, times):
-        """Simulated time [s] of ROS times [ns]."""
+    def seconds(self, times: np.ndarray) -> np.ndarray:
+        """Convert ROS times [ns] to simulated time [s]."""
         return 1e-9 * (np.asarray(times) - (self.start or 0))
 
 
-def read_bag(path):
-    """Recordings of the sims in a bag.
+def read_bag(path: str | PathLike[str]) -> tuple[Recording, ...]:
+    """Read the recordings of the sims in a bag.
 
     Parameters
     ----------
@@ -138,14 +142,15 @@ def read_bag(path):
         raise BagError(
             f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`'
         )
-    plays, decode = {}, decoder(path)
+    plays: dict[str, list[Parts]] = {}
+    decode = decoder(path)
     for received, topic, kind, raw in told:
         place = sorted_out(topic, kind, sims)
         if place:
             namespace, ball, name = place
             message = decode(topic, kind, raw)
-            parts = plays.setdefault(namespace, [defaultdict(list)])
-            parts = begun(parts, name, message, path)
+            starts = plays.setdefault(namespace, [defaultdict(list)])
+            parts = begun(starts, name, message, path)
             parts[ball, name].append((received, message))
     return tuple(
         recording(namespace, parts, path)
@@ -154,15 +159,15 @@ def read_bag(path):
     )
 
 
-def decoder(path):
-    """Function that makes a message of a topic, a type and bytes."""
+def decoder(path: str | PathLike[str]) -> Callable[[str, str, bytes], Any]:
+    """Return the function that makes a message of a topic, a type and bytes."""
     try:
         from rosbags.typesys import get_typestore, Stores
     except ImportError:
         raise BagError(f'reading a bag needs rosbags: {how_to_get("bag", "rosbags")}') from None
     types = get_typestore(Stores.ROS2_JAZZY)
 
-    def decode(topic, kind, raw):
+    def decode(topic: str, kind: str, raw: bytes) -> Any:
         try:
             return types.deserialize_cdr(raw, kind)
         except Exception as error:  # damage makes the library raise almost anything
@@ -174,7 +179,7 @@ def decoder(path):
     return decode
 
 
-def sorted_out(topic, kind, sims):
+def sorted_out(topic: str, kind: str, sims: set[str]) -> tuple[str, str, str] | None:
     """Namespace, ball or '', and name of a topic of one of `sims`; None for any other."""
     for end, expected in OF_SIM.items():
         if (
@@ -190,7 +195,7 @@ def sorted_out(topic, kind, sims):
     return None
 
 
-def begun(starts, name, message, path):
+def begun(starts: list[Parts], name: str, message: Any, path: str | PathLike[str]) -> Parts:
     """Messages of the present start of a sim; another configuration begins another start."""
     if name != 'journal':
         return starts[-1]
@@ -202,8 +207,8 @@ def begun(starts, name, message, path):
     return starts[-1]
 
 
-def recording(namespace, parts, path):
-    """`Recording` of the messages of one start of a sim."""
+def recording(namespace: str, parts: Parts, path: str | PathLike[str]) -> Recording:
+    """Put the messages of one start of a sim together."""
     start = parts['start'] if 'start' in parts else first_pose(parts)
     journal = tuple(entries(parts['', 'journal'], path))
     winds = parts['', 'wind']
@@ -226,18 +231,18 @@ def recording(namespace, parts, path):
     )
 
 
-def first_pose(parts):
+def first_pose(parts: Parts) -> int | None:
     """Stamp of the first pose of any ball [ns], or None."""
     poses = [told for (_, name), told in by_topic(parts) if name == 'pose']
     return min((ros_time(message) for told in poses for _, message in told), default=None)
 
 
-def by_topic(parts):
+def by_topic(parts: Parts) -> list[tuple[tuple[str, str], list[Received]]]:
     """Ball and name, and messages, of all topics."""
     return [(key, told) for key, told in parts.items() if key != 'start']
 
 
-def entries(told, path):
+def entries(told: list[Received], path: str | PathLike[str]) -> list[Entry]:
     """Entries of a journal, each once, in the order of their numbers."""
     found = [
         {**current(entry_of(message, path)), 'received': received} for received, message in told
@@ -245,7 +250,7 @@ def entries(told, path):
     return sorted(once(found, lambda entry: entry['entry']), key=lambda entry: entry['entry'])
 
 
-def entry_of(message, path):
+def entry_of(message: Any, path: str | PathLike[str]) -> Entry:
     """Entry that a message of a journal holds."""
     try:
         return opened(message.data)
@@ -253,7 +258,7 @@ def entry_of(message, path):
         raise BagError(f'{path}: journal: {error}') from None
 
 
-def texts(told, path, needed):
+def texts(told: list[Received], path: str | PathLike[str], needed: dict[str, Any]) -> list[Entry]:
     """Objects of messages with JSON, which have the keys that are `needed`."""
     try:
         found = [json.loads(message.data) for _, message in told]
@@ -266,15 +271,15 @@ def texts(told, path, needed):
     return found
 
 
-def once(found, key):
+def once(found: Iterable[T], key: Callable[[T], Hashable]) -> list[T]:
     """Those of `found` whose key is new: a recorder that joins twice gets messages twice."""
-    seen = {}
+    seen: dict[Hashable, T] = {}
     for one in found:
         seen.setdefault(key(one), one)
     return list(seen.values())
 
 
-def strikes(parts, journal):
+def strikes(parts: Parts, journal: tuple[Entry, ...]) -> Iterator[Strike]:
     """Strikes as sent; those on `shot`, without the name of a ball, are for the first one."""
     balls = next(
         (entry['parameters']['balls'] for entry in journal if entry['kind'] == 'config'), ['']
@@ -287,7 +292,7 @@ def strikes(parts, journal):
                 )
 
 
-def track(poses, twists):
+def track(poses: list[Received], twists: list[Received]) -> Track:
     """`Track` of the messages about a ball."""
     turns = [message.pose.orientation for _, message in poses]
     return Track(
@@ -300,16 +305,16 @@ def track(poses, twists):
     )
 
 
-def table(vectors):
+def table(vectors: list[Any]) -> np.ndarray:
     """Rows of x, y, z."""
     return np.array([triple(vector) for vector in vectors], float).reshape(-1, 3)
 
 
-def triple(vector):
+def triple(vector: Any) -> tuple[float, float, float]:
     """Three floats of a Vector3 or Point."""
     return vector.x, vector.y, vector.z
 
 
-def ros_time(message):
+def ros_time(message: Any) -> int:
     """Stamp of a message [ns]."""
     return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec

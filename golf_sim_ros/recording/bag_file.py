@@ -12,19 +12,25 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Messages in the files of a rosbag2 bag, not decoded, so that topics of other nodes do no harm."""
+"""Messages in the files of a rosbag2 bag.
+
+They are not decoded, so that topics of other nodes do no harm.
+"""
 
 from contextlib import closing
 from io import BytesIO
 from pathlib import Path
 import sqlite3
-from typing import NamedTuple
+from types import SimpleNamespace
+from typing import Any
 from urllib.parse import quote
 
 import yaml
 
 from ..course.schema import printable
 from ..optional_packages import how_to_get
+
+Raw = tuple[int, str, str, bytes]  # time received [ns], topic, type, content
 
 SUFFIXES = ('.mcap', '.db3')
 END = b'\x89MCAP0\r\n'
@@ -34,14 +40,15 @@ REINDEX = '`ros2 bag reindex {}` makes one'
 class BagError(ValueError):
     """A bag that cannot be used; one line says why."""
 
-    def __init__(self, message):
+    def __init__(self, message: object) -> None:
         super().__init__(printable(message))
 
 
-def raw_messages(path):
-    """Time received [ns], topic, type and bytes of all messages in a bag: a folder, or one of its files.
+def raw_messages(path: Path) -> list[Raw]:
+    """Read all messages in a bag: a folder, or one of its files.
 
-    Raises `BagError`, a line without the path, where it is no bag or damaged.
+    Of each its time received [ns], topic, type and bytes. Raises `BagError`, a line without the
+    path, where it is no bag or damaged.
     """
     if path.is_file():
         if path.suffix not in SUFFIXES:
@@ -63,7 +70,7 @@ def raw_messages(path):
     return [message for file in files for message in from_file(file)]
 
 
-def metadata(path):
+def metadata(path: Path) -> dict[str, Any]:
     """Content of a bag's metadata.yaml."""
     file = path / 'metadata.yaml'
     if not file.is_file():
@@ -84,12 +91,12 @@ def metadata(path):
     raise BagError(f'its metadata.yaml cannot be used ({reason[:100]}): {REINDEX.format(path)}')
 
 
-def from_file(path):
+def from_file(path: Path) -> list[Raw]:
     """Messages of one file."""
     return (sqlite if path.suffix == '.db3' else mcap)(path)
 
 
-def sqlite(path):
+def sqlite(path: Path) -> list[Raw]:
     """Messages of a .db3 file."""
     query = (
         'SELECT messages.timestamp, topics.name, topics.type, messages.data FROM messages '
@@ -118,21 +125,20 @@ def sqlite(path):
 class Schemas(dict):
     """Schemas by number, without texts: rosbags knows only some kinds, and none is needed."""
 
-    def __setitem__(self, number, schema):
+    def __setitem__(self, number: int, schema: Any) -> None:
+        """Keep a schema without its text."""
         super().__setitem__(number, schema._replace(encoding='', data=''))
 
 
-class InMemory(NamedTuple):
-    """A file that is in memory: where a length in it is damaged, a read ends with the file."""
+def in_memory(raw: bytes) -> SimpleNamespace:
+    """Make a path of a file that is in memory, with all that rosbags asks of one.
 
-    raw: bytes
-
-    def open(self, mode):
-        """The file, from its beginning."""
-        return BytesIO(self.raw)
+    Where a length in the file is damaged, a read ends with it.
+    """
+    return SimpleNamespace(open=lambda mode: BytesIO(raw))
 
 
-def mcap(path):
+def mcap(path: Path) -> list[Raw]:
     """Messages of a .mcap file."""
     raw = path.read_bytes()
     if not raw.endswith(END):
@@ -143,8 +149,11 @@ def mcap(path):
     return by_rosbags(path, raw)
 
 
-def by_rosbags(path, raw=None):
-    """Messages that rosbags finds in a .mcap file, of bytes `raw`, or in a folder with compressed files."""
+def by_rosbags(path: Path, raw: bytes | None = None) -> list[Raw]:
+    """Messages that rosbags finds in a .mcap file or in a folder with compressed files.
+
+    `raw` are the bytes of the file.
+    """
     try:
         from rosbags.rosbag2 import Reader
     except ImportError:
@@ -152,10 +161,10 @@ def by_rosbags(path, raw=None):
     try:
         reader = Reader(path)
         if raw is not None:
-            reader.storage.path, reader.storage.schemas = InMemory(raw), Schemas()
+            reader.storage.path = in_memory(raw)
+            reader.storage.schemas = Schemas()
         with reader:
-            # Those of the storage: where its QoS is not that of the metadata, rosbags would find
-            # nothing.
+            # Those of the storage: rosbags has none where its QoS is not that of the metadata.
             stores = getattr(reader.storage, 'storages', [reader.storage])
             wanted = [
                 connection
@@ -164,11 +173,10 @@ def by_rosbags(path, raw=None):
                 if connection.ext.serialization_format == 'cdr'
             ]
             return [
-                (time, connection.topic, connection.msgtype, raw)
-                for connection, time, raw in (reader.messages(wanted) if wanted else ())
+                (time, connection.topic, connection.msgtype, content)
+                for connection, time, content in (reader.messages(wanted) if wanted else ())
             ]
-    except (
-        Exception
-    ) as error:  # damage makes the library, and those below it, raise almost anything
+    except Exception as error:
+        # Damage makes the library, and those below it, raise almost anything.
         reason = ' '.join(str(error).split()) or type(error).__name__
         raise BagError(f'{path.name} is damaged, or no bag: {reason}') from None

@@ -14,7 +14,10 @@
 
 """A rosbag2 bag, written as messages arrive, with the QoS that their publishers offer."""
 
+from collections.abc import Iterable
+from os import PathLike
 from pathlib import Path
+from typing import Any
 
 from ..optional_packages import how_to_get
 
@@ -41,7 +44,7 @@ class BagWriter:
         The folder is there, or cannot be made, or the library rosbags is missing.
     """
 
-    def __init__(self, path, storage):
+    def __init__(self, path: str | PathLike[str], storage: str) -> None:
         try:
             from rosbags.rosbag2 import StoragePlugin, Writer
             from rosbags.rosbag2.errors import WriterError
@@ -50,7 +53,8 @@ class BagWriter:
             raise CannotRecord(
                 f'recording needs rosbags: {how_to_get("bag", "rosbags")}'
             ) from None
-        self.path, self.types = Path(path), get_typestore(Stores.ROS2_JAZZY)
+        self.path = Path(path)
+        self.types = get_typestore(Stores.ROS2_JAZZY)
         try:
             self.writer = Writer(
                 self.path, version=9, storage_plugin=StoragePlugin[storage.upper()]
@@ -58,9 +62,10 @@ class BagWriter:
             self.writer.open()
         except (OSError, WriterError) as error:
             raise CannotRecord(f'{path}: {error}') from None
-        self.connections, self.count = {}, 0
+        self.connections: dict[str, Any] = {}
+        self.count = 0
 
-    def add(self, topic, kind, profiles):
+    def add(self, topic: str, kind: str, profiles: Iterable[tuple[str, str, int]]) -> None:
         """Begin a topic, once.
 
         `profiles` are the offered QoS, (reliability, durability, depth) by name.
@@ -73,18 +78,18 @@ class BagWriter:
                 offered_qos_profiles=[qos(*profile) for profile in profiles],
             )
 
-    def write(self, topic, time, data):
+    def write(self, topic: str, time: int, data: bytes) -> None:
         """Write a serialized message received at `time` [ns] on a topic that was added."""
         self.writer.write(self.connections[topic], time, data)
         self.count += 1
 
-    def close(self):
+    def close(self) -> None:
         """Complete the bag."""
         self.writer.close()
 
 
-def qos(reliability, durability, depth):
-    """QoS profile as bags keep it."""
+def qos(reliability: str, durability: str, depth: int) -> Any:
+    """Profile of QoS as bags keep it."""
     from rosbags.interfaces import (
         Qos,
         QosDurability,

@@ -19,14 +19,17 @@ tick: how many ticks had passed when the input was applied. Its last key is a CR
 stands before it, so that a changed byte is noticed.
 """
 
+from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
 import json
 import platform
+from typing import Any
 from zlib import crc32
 
-from .journal_format import FORMAT
+from .journal_format import Entry, FORMAT
 from .json_format import text, Written
 from .. import __version__
+from ..physics import BallState, Result, World
 from ..physics.jit.cache import source_key
 
 SEAL = ', "crc32": '
@@ -45,15 +48,16 @@ class Journal:
         Called with the text of each entry.
     """
 
-    def __init__(self, tell):
-        self.tell, self.entries = tell, 0
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self.tell = tell
+        self.entries = 0
 
-    def note(self, kind, tick, **values):
+    def note(self, kind: str, tick: int, **values: Any) -> None:
         """Write one more entry."""
         self.tell(sealed({'entry': self.entries, 'kind': kind, 'tick': tick, **values}))
         self.entries += 1
 
-    def config(self, world, parameters, start):
+    def config(self, world: World, parameters: dict[str, Any], start: int) -> None:
         """Write the configuration of the play.
 
         `start`: ROS time [ns] at which simulated time began.
@@ -74,24 +78,29 @@ class Journal:
             made_with=made_with(),
         )
 
-    def strike(self, tick, shot, name, strike, state):
-        """Write strike number `shot`: `strike` is (velocity, spin), `state` that of the world just before."""
+    def strike(
+        self, tick: int, shot: int, name: str, strike: tuple[tuple, tuple], state: dict[str, Any]
+    ) -> None:
+        """Write strike number `shot`.
+
+        `strike` is (velocity, spin), `state` that of the world just before.
+        """
         velocity, spin = strike
         self.note('strike', tick, shot=shot, ball=name, velocity=velocity, spin=spin, **state)
 
-    def rest(self, tick, shot, result, ball):
+    def rest(self, tick: int, shot: int, result: Result, ball: BallState) -> None:
         """Write the end of a shot; `ball` is the `BallState` at `tick`."""
         self.note(
             'rest', tick, shot=shot, ball=result.ball, status=result.status, state=standing(ball)
         )
 
 
-def standing(ball):
+def standing(ball: BallState) -> dict[str, Any]:
     """Fields of a `BallState`, for JSON."""
     return {**ball._asdict(), 'phase': ball.phase.name}
 
 
-def made_with():
+def made_with() -> dict[str, str | None]:
     """Versions, physics and processor: where they are the same, so is a play to the bit."""
     return {
         'physics': source_key(),
@@ -102,15 +111,18 @@ def made_with():
     }
 
 
-def _version(name):
+def _version(name: str) -> str | None:
     try:
         return version(name)
     except PackageNotFoundError:
         return None
 
 
-def _processor():
-    """The processor's name, or at least its family: what compilers and mathematical libraries adapt to."""
+def _processor() -> str:
+    """Name of the processor, or at least its family.
+
+    Compilers and mathematical libraries adapt to it.
+    """
     try:
         with open('/proc/cpuinfo', encoding='utf-8') as file:
             names = [
@@ -121,7 +133,7 @@ def _processor():
     return ' '.join([platform.machine(), *names[:1]])
 
 
-def sealed(entry):
+def sealed(entry: Entry) -> str:
     """Text of an entry, with its checksum."""
     parts = (
         f'"{key}": {value if isinstance(value, Written) else text(value)}'
@@ -131,8 +143,8 @@ def sealed(entry):
     return f'{body}{SEAL}{crc32(body.encode())}}}'
 
 
-def opened(line):
-    """Entry of a text.
+def opened(line: str) -> Entry:
+    """Read the entry in a text.
 
     Raises
     ------
@@ -147,7 +159,7 @@ def opened(line):
     return json.loads(body + '}')
 
 
-def title(body):
+def title(body: str) -> str:
     """Name of an entry that may be damaged: its first two values, if they can be read."""
     parts = body[:60].split(', ')[:2]
     return 'entry ' + ' '.join(part.partition(': ')[2].strip('"') for part in parts)

@@ -18,6 +18,10 @@ Format 1, of versions that wrote none: the fields of a ball in a strike's `balls
 The numbers are the same.
 """
 
+from typing import Any
+
+Entry = dict[str, Any]  # what its JSON holds
+
 FORMAT = 2
 
 # Fields of a ball, by format 1 and since format 2.
@@ -48,7 +52,7 @@ RENAMED = {
 }
 
 
-def current(entry):
+def current(entry: Entry) -> Entry:
     """Entry of the present format for `entry`, which is of any format."""
     balls = entry.get('balls')
     if entry['kind'] != 'strike' or not isinstance(balls, dict):
@@ -56,7 +60,7 @@ def current(entry):
     return {**entry, 'balls': {name: renamed(ball) for name, ball in balls.items()}}
 
 
-def renamed(ball):
+def renamed(ball: Any) -> Any:
     """Fields of a ball by their present names."""
     if not isinstance(ball, dict):
         return ball  # whoever restores it says that it is none

@@ -17,9 +17,11 @@
 from functools import lru_cache
 import json
 from math import isfinite
+from typing import Any
 
 import numpy as np
 
+from ..physics import Collision, Result, World
 from ..physics.state.ball import BALL
 from ..physics.state.serialize import OF_TICK, plain_of_segment, plain_of_tick
 
@@ -62,25 +64,25 @@ COLLISION = (
     'impulse',
 )
 ENCODER = json.JSONEncoder(allow_nan=False)
-TICK_BYTES = BALL.fields[BALL.names[len(OF_TICK)]][1]
+TICK_BYTES = sorted(place for _, place, *_ in (BALL.fields or {}).values())[len(OF_TICK)]
 DIGITS = 4  # of lengths, speeds and angles in a result; `time` has two more
 
 
-def collision_text(collision):
+def collision_text(collision: Collision) -> str:
     """Collision as a JSON object, in full precision; null in place of what is not finite."""
     values = collision._asdict()
     values['with'] = values['with_']
     return text({key: plain(values[key]) for key in COLLISION})
 
 
-def result_text(result, shot):
-    """Result of strike number `shot` as a JSON object, rounded for people."""
+def result_text(result: Result, shot: int) -> str:
+    """Write the result of strike number `shot` as a JSON object, rounded for people."""
     values = {**result._asdict(), 'shot': shot}
     rounded = {key: plain(values[key], DIGITS) for key in RESULT}
     return text({**rounded, 'time': plain(result.time, DIGITS + 2)})
 
 
-def rejection_text(shot, ball, velocity, spin, reason):
+def rejection_text(shot: int, ball: str, velocity: tuple, spin: tuple, reason: str) -> str:
     """Rejection of strike number `shot` as a JSON object."""
     values = (shot, ball, 'rejected', plain(velocity, DIGITS), plain(spin, DIGITS), reason)
     return text(dict(zip(REJECTION, values)))
@@ -90,20 +92,20 @@ class Written(str):
     """Text that is JSON already."""
 
 
-def state_text(world):
+def state_text(world: World) -> dict[str, Any]:
     """`world.state()`, of which the balls are `Written`."""
     state = world.state(ball_text)
     balls = ', '.join(f'"{name}": {ball}' for name, ball in state['balls'].items())
     return {**state, 'balls': Written(f'{{{balls}}}')}
 
 
-def ball_text(ball):
+def ball_text(ball: np.void) -> str:
     """`BALL` record as a JSON object, of what `physics.state.serialize.plain` gives."""
     return f'{text(plain_of_tick(ball))[:-1]}, {segment_text(ball.tobytes()[TICK_BYTES:])[1:]}'
 
 
 @lru_cache(maxsize=1000)
-def segment_text(record):
+def segment_text(record: bytes) -> str:
     """Part of `ball_text` that lasts a segment.
 
     `record` has the bytes after those that a tick writes.
@@ -111,10 +113,10 @@ def segment_text(record):
     return text(plain_of_segment(np.frombuffer(bytes(TICK_BYTES) + record, BALL)[0]))
 
 
-def plain(value, digits=None):
-    """`value` for JSON: floats rounded, if to `digits`, without a negative zero.
+def plain(value: Any, digits: int | None = None) -> Any:
+    """`value` for JSON: None where it is not finite.
 
-    None where not finite.
+    Floats are rounded, if to `digits`, and without a negative zero.
     """
     if isinstance(value, float):
         if not isfinite(value):
@@ -125,7 +127,7 @@ def plain(value, digits=None):
     return value
 
 
-def text(values):
+def text(values: Any) -> str:
     """`values` as JSON; numbers come back as they were, to the bit.
 
     What is not finite is a text: 'nan'.
@@ -136,7 +138,7 @@ def text(values):
         return ENCODER.encode(spelled(values))
 
 
-def spelled(value):
+def spelled(value: Any) -> Any:
     """`value` with texts in place of numbers that are not finite."""
     if isinstance(value, float) and not isfinite(value):
         return str(value)

@@ -15,21 +15,26 @@
 """Recorded shots, run again: whether they are the same to the bit, and where they differ first."""
 
 from collections import defaultdict
+from collections.abc import Iterator, Sequence
 import json
 from math import ceil
+from os import PathLike
 from time import perf_counter
-from typing import NamedTuple, Optional
+from typing import NamedTuple
 
 import numpy as np
 
-from .bag import BagError
+from .bag import BagError, Recording, Strike
 from .journal import standing
+from .journal_format import Entry
 from .json_format import collision_text, DIGITS, plain, result_text
 from ..course import CourseError, load_course
-from ..physics import Result, World
+from ..physics import BallState, Collision, Course, Result, World
 from ..physics.live_parameters import LIVE
 
-INPUTS = ('strike', 'place', 'reset', 'accuracy', *LIVE)
+Event = Collision | Result
+
+INPUTS = ('strike', 'place', 'reset', 'accuracy')  # and live parameters
 STATE = ('time', 'clock', 'accuracy', 'balls')
 LONGEST = 1000.0  # s; every shot is over long before
 RUNS = 5  # of which the fastest counts
@@ -43,9 +48,9 @@ class Shot(NamedTuple):
     ``gap`` names the entries in between that are missing.
     """
 
-    strike: dict
-    inputs: tuple
-    rest: Optional[dict]
+    strike: Entry
+    inputs: tuple[Entry, ...]
+    rest: Entry | None
     gap: str
 
 
@@ -57,11 +62,11 @@ class Rerun(NamedTuple):
     why it could not be run to its end, or ''.
     """
 
-    path: list
-    impacts: list
+    path: list[BallState]
+    impacts: list[tuple[int, Collision]]
     end: int
-    rest: NamedTuple
-    result: Optional[Result]
+    rest: BallState
+    result: Result | None
     trouble: str
 
 
@@ -74,29 +79,30 @@ class Difference(NamedTuple):
     again: object
 
 
-def shots(recording):
-    """The `Shot` of each strike in the journal, in order."""
+def shots(recording: Recording) -> list[Shot]:
+    """Shots of the strikes in the journal, in order."""
     journal = recording.journal
     return [shot_from(journal[i:]) for i, entry in enumerate(journal) if entry['kind'] == 'strike']
 
 
-def shot_from(entries):
+def shot_from(entries: Sequence[Entry]) -> Shot:
     """`Shot` of the strike with which `entries` begin."""
     strike, *later = entries
-    gap, last, inputs = '', strike['entry'], []
+    gap, last = '', strike['entry']
+    inputs: list[Entry] = []
     for entry in later:
         if entry['entry'] != last + 1:
             gap = gap or f'{last + 1} to {entry["entry"] - 1}'
         last = entry['entry']
         if entry['kind'] == 'rest' and entry['shot'] == strike['shot']:
             return Shot(strike, tuple(inputs), entry, gap)
-        if entry['kind'] in INPUTS:
+        if entry['kind'] in INPUTS or entry['kind'] in LIVE:
             inputs.append(entry)
     return Shot(strike, tuple(inputs), None, gap)
 
 
-def world_of(recording, course=None):
-    """`World` like that of the recorded sim.
+def world_of(recording: Recording, course: str | PathLike[str] | None = None) -> World:
+    """Make a `World` like that of the recorded sim.
 
     Parameters
     ----------
@@ -109,12 +115,7 @@ def world_of(recording, course=None):
     BagError
         There is no journal or no such course, or the course is another one.
     """
-    config = recording.config
-    if config is None:
-        missing = 'the beginning of its journal' if recording.journal else 'journal'
-        raise BagError(
-            f'{recording.namespace or "/"}: no {missing} was recorded: it cannot be run again'
-        )
+    config = config_of(recording)
     parameters = config['parameters']
     found = course_of(config, course)
     if found.digest != config['course']['digest']:
@@ -131,13 +132,23 @@ def world_of(recording, course=None):
     )
 
 
-def engine_of(recording, shot):
+def config_of(recording: Recording) -> Entry:
+    """Get the configuration of a recorded sim; BagError where none was recorded."""
+    if recording.config is None:
+        missing = 'the beginning of its journal' if recording.journal else 'journal'
+        raise BagError(
+            f'{recording.namespace or "/"}: no {missing} was recorded: it cannot be run again'
+        )
+    return recording.config
+
+
+def engine_of(recording: Recording, shot: Shot) -> str:
     """Engine that played a shot; versions before 0.2 played all shots of a sim with the same."""
-    before = 'compiled' if recording.config['made_with'].get('compiled', True) else 'python'
+    before = 'compiled' if config_of(recording)['made_with'].get('compiled', True) else 'python'
     return shot.strike.get('engine', before)
 
 
-def course_of(config, course):
+def course_of(config: Entry, course: str | PathLike[str] | None) -> Course:
     """Course of a configuration, at `course` or where it was."""
     places = [course] if course else [config['parameters']['course'], config['course']['path']]
     for place in places:
@@ -148,10 +159,12 @@ def course_of(config, course):
     raise BagError(f'{reason}') from None
 
 
-def rerun(world, shot, tick):
-    """`Rerun` of a shot, in ticks of `tick` [s], until its ball stops."""
+def rerun(world: World, shot: Shot, tick: float) -> Rerun:
+    """Run a shot again, in ticks of `tick` [s], until its ball stops."""
     name, now, todo = shot.strike['ball'], shot.strike['tick'], list(shot.inputs)
-    path, impacts, result, trouble = [], [], None, ''
+    path: list[BallState] = []
+    impacts: list[tuple[int, Collision]] = []
+    result, trouble = None, ''
     try:
         begin(world, shot.strike)
         while not result:
@@ -167,7 +180,7 @@ def rerun(world, shot, tick):
     return Rerun(path, impacts, now, world[name], result, trouble)
 
 
-def begin(world, strike):
+def begin(world: World, strike: Entry) -> None:
     """Go back to where a recorded strike was made, and make it."""
     world.restore(
         {
@@ -178,8 +191,11 @@ def begin(world, strike):
     world.strike(strike['ball'], strike['velocity'], strike['spin'])
 
 
-def due(world, todo, now):
-    """Events at the instant of the strike and of the inputs until tick `now`, which are taken from `todo`."""
+def due(world: World, todo: list[Entry], now: int) -> list[Event]:
+    """Apply the inputs of `todo` until tick `now`, and take them from it.
+
+    Returns the events at the instant of the strike and of those inputs.
+    """
     told = world.happened()
     while todo and todo[0]['tick'] <= now:
         aborted = applied(world, todo.pop(0))
@@ -187,8 +203,8 @@ def due(world, todo, now):
     return told
 
 
-def applied(world, entry):
-    """Apply an input; results of the shots that it ends."""
+def applied(world: World, entry: Entry) -> list[Event]:
+    """Apply an input; return the results of the shots that it ends."""
     kind = entry['kind']
     if kind == 'strike':
         world.strike(entry['ball'], entry['velocity'], entry['spin'])
@@ -198,25 +214,27 @@ def applied(world, entry):
         world.set_live(kind, entry[kind])
     elif kind == 'accuracy':
         world.accuracy = entry['accuracy']
-    return world.reset() if kind == 'reset' else []
+    return [*world.reset()] if kind == 'reset' else []
 
 
-def impacts_of(events, name):
-    """The `Collision` of ball `name` among `events`."""
+def impacts_of(events: list[Event], name: str) -> list[Collision]:
+    """Collisions of ball `name` among `events`."""
     return [event for event in events if not isinstance(event, Result) and event.ball == name]
 
 
-def own_result(events, name):
-    """Result of ball `name` among `events`, or None."""
+def own_result(events: list[Event], name: str) -> Result | None:
+    """Find the result of ball `name` among `events`, or None."""
     return next(
         (event for event in events if isinstance(event, Result) and event.ball == name), None
     )
 
 
-def difference(recording, shot, again, exact=True):
-    """The first `Difference` between a recorded shot and its `Rerun`, or None where all is the same.
+def difference(
+    recording: Recording, shot: Shot, again: Rerun, exact: bool = True
+) -> Difference | None:
+    """Find the first `Difference` between a recorded shot and its `Rerun`.
 
-    To the bit, if `exact`; else as far as the two engines agree.
+    None where all is the same: to the bit, if `exact`; else as far as the two engines agree.
     """
     if again.trouble:
         return Difference(again.end, 'input', 'taken', again.trouble)
@@ -231,8 +249,11 @@ def difference(recording, shot, again, exact=True):
     return min(found, key=lambda one: one.tick, default=None)
 
 
-def are_close(one):
-    """Whether a `Difference` is rounding, as between the engines or in the last digit of a result."""
+def are_close(one: Difference) -> bool:
+    """Whether a `Difference` is rounding.
+
+    As between the engines, or in the last digit of a result.
+    """
     if isinstance(one.recorded, str) or one.recorded is None or one.again is None:
         return False
     within = 1.01 * 10.0**-DIGITS if one.field.endswith('of the result') else CLOSE
@@ -242,13 +263,16 @@ def are_close(one):
     )
 
 
-def tick_of(recording):
+def tick_of(recording: Recording) -> float:
     """Length of a tick [s]."""
-    return 1.0 / recording.config['parameters']['rate']
+    return 1.0 / config_of(recording)['parameters']['rate']
 
 
-def unsent(recording, shot):
-    """Differences between the strike and what was sent, if that was recorded and fits no other strike."""
+def unsent(recording: Recording, shot: Shot) -> Iterator[Difference]:
+    """Differences between the strike and what was sent.
+
+    Only if that was recorded and fits no other strike.
+    """
     strike = shot.strike
     journal = [entry for entry in recording.journal if entry['kind'] == 'strike']
     sent = [one for one in recording.strikes if one.ball == strike['ball']]
@@ -270,18 +294,18 @@ def unsent(recording, shot):
             yield Difference(strike['tick'], f'{field} sent', mine, told)
 
 
-def played(entry, strike):
+def played(entry: Entry, strike: Strike) -> bool:
     """Whether an entry of the journal is that of a strike as it was sent."""
     return (entry['ball'], tuple(entry['velocity']), tuple(entry['spin'])) == strike[1:]
 
 
-def rejected(result, strike):
+def rejected(result: Entry, strike: Strike) -> bool:
     """Whether a result is the rejection of a strike as it was sent."""
     told = [result[name] for name in ('status', 'ball', 'velocity', 'spin')]
     return told == ['rejected', strike.ball, *plain(strike[2:], DIGITS)]
 
 
-def off_path(recording, shot, again):
+def off_path(recording: Recording, shot: Shot, again: Rerun) -> Iterator[Difference]:
     """Differences between recorded poses and twists and the path."""
     track = recording.tracks.get(shot.strike['ball'])
     if track is None:
@@ -293,22 +317,23 @@ def off_path(recording, shot, again):
         )
         for row in np.flatnonzero((ticks > 0) & (ticks < len(again.path))):
             for field in fields:
-                told, now = (
-                    getattr(track, MANY[field])[row],
-                    getattr(again.path[ticks[row]], field),
-                )
+                told = getattr(track, MANY[field])[row]
+                now = getattr(again.path[ticks[row]], field)
                 if told.tobytes() != np.array(now).tobytes():
                     yield Difference(
                         shot.strike['tick'] + int(ticks[row]), field, tuple(told.tolist()), now
                     )
 
 
-def other_impacts(recording, shot, again, tick):
+def other_impacts(
+    recording: Recording, shot: Shot, again: Rerun, tick: float
+) -> Iterator[Difference]:
     """Differences between recorded collisions and those of the `Rerun`; some may not be recorded.
 
     At one instant there may be several, as with the surfaces of a corner.
     """
-    strike, happened = shot.strike, defaultdict(list)
+    strike = shot.strike
+    happened: dict[tuple[float, str], list[tuple[int, Entry]]] = defaultdict(list)
     for number, impact in again.impacts:
         happened[impact.time, impact.kind].append((number, json.loads(collision_text(impact))))
     end = strike['time'] + (again.end - strike['tick'] + 0.5) * tick
@@ -326,32 +351,40 @@ def other_impacts(recording, shot, again, tick):
                     )
 
 
-def other_end(recording, shot, again):
+def other_end(recording: Recording, shot: Shot, again: Rerun) -> Iterator[Difference]:
     """Differences between the recorded end, in journal and result, and that of the `Rerun`."""
+    ended = again.result
+    if ended is None:  # it could not be run to its end
+        return
     result = next((one for one in recording.results if one['shot'] == shot.strike['shot']), None)
     if result:
-        now = json.loads(result_text(again.result, result['shot']))
+        now = json.loads(result_text(ended, result['shot']))
         yield from differences(again.end, 'result', result, now)
     if shot.rest:
         rest = shot.rest
         # Older versions wrote an end within the strike at the tick after it.
         at_once = again.end == shot.strike['tick'] == rest['tick'] - 1
-        now = {'tick': again.end + at_once, 'status': again.result.status, **standing(again.rest)}
+        now = {'tick': again.end + at_once, 'status': ended.status, **standing(again.rest)}
         told = {'tick': rest['tick'], 'status': rest['status'], **rest['state']}
         yield from differences(
             min(again.end, rest['tick']), 'rest', told, json.loads(json.dumps(now))
         )
 
 
-def differences(tick, of, told, now):
-    """Differences between two dicts, in the recorded fields: an earlier version may have had fewer."""
+def differences(tick: int, of: str, told: Entry, now: Entry) -> Iterator[Difference]:
+    """Differences between two dicts, in the recorded fields.
+
+    An earlier version may have had fewer.
+    """
     for field in told:
         if told[field] != now.get(field):
             yield Difference(tick, f'{field} of the {of}', told[field], now.get(field))
 
 
-def timed(world, shot, tick, accuracy=None):
-    """Where a shot ends, and the time [s] that its physics takes, in as few calls as possible.
+def timed(
+    world: World, shot: Shot, tick: float, accuracy: str | None = None
+) -> tuple[tuple | None, float]:
+    """Find where a shot ends, and the time [s] that its physics takes, in as few calls as can be.
 
     Parameters
     ----------
@@ -373,8 +406,10 @@ def timed(world, shot, tick, accuracy=None):
     return runs[0][0], min(time for _, time in runs)
 
 
-def run_fast(world, shot, tick, accuracy):
-    """Where a shot ends, or None after a reset, and the time taken [s]."""
+def run_fast(
+    world: World, shot: Shot, tick: float, accuracy: str | None
+) -> tuple[tuple | None, float]:
+    """Find where a shot ends, or None after a reset, and the time taken [s]."""
     strike, name, spent = shot.strike, shot.strike['ball'], 0.0
     begin(world, {**strike, 'accuracy': accuracy or strike['accuracy']})
     now, result = strike['tick'], None
@@ -391,11 +426,12 @@ def run_fast(world, shot, tick, accuracy):
             result = own_result(repeated(world, entry), name)
             if result:
                 return None, spent
+    assert result is not None, f'a shot moves for more than {LONGEST:g} s'
     return result.position, spent
 
 
-def repeated(world, entry):
-    """`applied`, but for an input that is left out as its ball still moves, at another accuracy."""
+def repeated(world: World, entry: Entry) -> list[Event]:
+    """Apply an input, unless its ball still moves, at another accuracy: then leave it out."""
     try:
         return applied(world, entry)
     except ValueError:

@@ -14,6 +14,7 @@
 
 """Clubs, each with the average shot of the PGA Tour."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from .launch_monitor import Launch
@@ -61,11 +62,11 @@ class Club(NamedTuple):
     """
 
     name: str
-    launch: Launch = None
-    carry: float = None
+    launch: Launch | None = None
+    carry: float | None = None
 
 
-def _clubs():
+def _clubs() -> Iterator[tuple[str, Club]]:
     speed, angle, spin, length = UNITS['golf']
     for name, mph, degrees, rpm, yards in TOUR_AVERAGES:
         launch = Launch(
@@ -78,7 +79,7 @@ def _clubs():
 CLUBS = dict(_clubs())
 
 
-def club(text):
+def club(text: str) -> Club:
     """Club of a name as people write it: ``7i``, ``7-iron``, ``3 wood``, ``Driver``.
 
     Parameters

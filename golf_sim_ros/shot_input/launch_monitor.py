@@ -30,8 +30,11 @@ the right of the flight (-y for a shot along +x), and sidespin that curves to th
 clockwise seen from above.
 """
 
+from collections.abc import Iterable
 from math import cos, sin
 from typing import NamedTuple
+
+Vector = tuple[float, float, float]
 
 
 class Launch(NamedTuple):
@@ -58,12 +61,12 @@ class Launch(NamedTuple):
     sidespin: float = 0.0
 
 
-def parted(spin, axis):
+def parted(spin: float, axis: float) -> tuple[float, float]:
     """Backspin and sidespin of a `spin` whose `axis` [rad] is tilted, positive to the right."""
     return spin * cos(axis), spin * sin(axis)
 
 
-def velocity_and_spin(launch, heading=0.0):
+def velocity_and_spin(launch: Launch, heading: float = 0.0) -> tuple[Vector, Vector]:
     """Velocity and angular velocity of a launched ball in the frame of the course.
 
     Parameters
@@ -84,9 +87,10 @@ def velocity_and_spin(launch, heading=0.0):
     velocity = (launch.speed * along * ahead_x, launch.speed * along * ahead_y, launch.speed * up)
     right = (ahead_y, -ahead_x, 0.0)
     above = (-up * ahead_x, -up * ahead_y, along)  # right x velocity, of unit length
-    spin = tuple(launch.backspin * r - launch.sidespin * a for r, a in zip(right, above))
+    spin = [launch.backspin * r - launch.sidespin * a for r, a in zip(right, above)]
     return _without_negative_zeros(velocity), _without_negative_zeros(spin)
 
 
-def _without_negative_zeros(vector):
-    return tuple(number + 0.0 for number in vector)
+def _without_negative_zeros(vector: Iterable[float]) -> Vector:
+    x, y, z = vector
+    return x + 0.0, y + 0.0, z + 0.0

@@ -12,4 +12,4 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Study of what accuracy costs in time: scenes, methods, measurement, and the page that says it."""
+"""Study of what accuracy costs in time: scenes, methods, measurement, the page that says it."""

@@ -14,10 +14,12 @@
 
 """Cost of each effect in a scene, and how the shot ends without it."""
 
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from typing import NamedTuple
 
 from .measure import Stage, timed
-from .scenes import Game
+from .scenes import Game, Scene
 
 NEEDED = {'gravity'}  # without it nothing comes down
 
@@ -38,12 +40,12 @@ class EffectRow(NamedTuple):
     time: float
 
 
-def droppable(scene):
+def droppable(scene: Scene | Game) -> tuple[str, ...]:
     """Names of the effects that a scene can be played without."""
     return tuple(name for name in scene.effects if name not in NEEDED)
 
 
-def without(scene, effect):
+def without(scene: Scene | Game, effect: str) -> EffectRow:
     """`EffectRow` of a scene that is played at `standard` with and without an effect, in turns."""
     rest = tuple(name for name in scene.effects if name != effect)
     whole, less = Stage(scene, 'standard'), Stage(scene, 'standard', rest)
@@ -52,14 +54,14 @@ def without(scene, effect):
     return EffectRow(scene.name, effect, touch, moved, 100.0 * (1.0 - shorter / time), time)
 
 
-def jobs(scenes):
-    """A function for each row.
+def jobs(scenes: Iterable[Scene | Game]) -> Iterator[Callable[[], EffectRow]]:
+    """Yield a function for each row.
 
     Of a `Game` only what no scene before it has: it would compile for minutes.
     """
-    seen = set()
+    seen: set[str] = set()
     for scene in scenes:
         for effect in droppable(scene):
             if not isinstance(scene, Game) or effect not in seen:
-                yield lambda scene=scene, effect=effect: without(scene, effect)
+                yield partial(without, scene, effect)
             seen.add(effect)

@@ -14,12 +14,19 @@
 
 """Figures of the page on what accuracy costs."""
 
+from collections.abc import Sequence
 from math import isfinite
+from os import PathLike
+from typing import Any
 
 import matplotlib
 from matplotlib import pyplot
 import numpy as np
 
+from .effects import EffectRow
+from .measure import Row
+from .sizes import SizeRow
+from .ticks import TickRow
 from ..physics import ACCURACY
 
 matplotlib.use('Agg')
@@ -34,13 +41,13 @@ LEAST = 1e-13  # m: errors below are rounding, drawn here
 LEAST_MOVED = 1e-6  # m
 
 
-def save(figure, path):
+def save(figure: Any, path: str | PathLike[str]) -> None:
     """Write a figure to a PNG file."""
     figure.savefig(path, dpi=100)
     pyplot.close(figure)
 
 
-def draw(rows, path):
+def draw(rows: Sequence[Row], path: str | PathLike[str]) -> None:
     """Draw time against error, a panel a scene and a line a method, to a PNG file."""
     scenes = list(dict.fromkeys(row.scene for row in rows))
     across = 2 if len(scenes) <= 4 else 3
@@ -52,7 +59,8 @@ def draw(rows, path):
     for panel, scene in zip(panels.flat, scenes):
         draw_scene(panel, [row for row in rows if row.scene == scene])
         handles.update(dict(zip(*reversed(panel.get_legend_handles_labels()))))
-    for panel in panels.flat[len(scenes) :]:
+    unused = slice(len(scenes), None)
+    for panel in panels.flat[unused]:
         panel.set_axis_off()
     figure.legend(
         handles.values(), handles.keys(), loc='outside lower center', ncols=4, frameon=False
@@ -60,7 +68,7 @@ def draw(rows, path):
     save(figure, path)
 
 
-def draw_scene(panel, rows):
+def draw_scene(panel: Any, rows: Sequence[Row]) -> None:
     """Draw one scene's rows."""
     flies = any(isfinite(row.touch_error) for row in rows)
     what = 'touch_error' if flies else 'rest_error'
@@ -101,8 +109,11 @@ def draw_scene(panel, rows):
     panel.grid(alpha=0.3)
 
 
-def draw_effects(rows, path):
-    """Draw how far the rest moves without an effect, and the time that saves, a bar each, to a PNG file."""
+def draw_effects(rows: Sequence[EffectRow], path: str | PathLike[str]) -> None:
+    """Draw what a scene is without an effect, to a PNG file.
+
+    How far the rest moves, and the time that saves, a bar each.
+    """
     names = [f'{row.scene}: {row.effect}' for row in rows]
     places = np.arange(len(rows))[::-1]
     figure, (left, right) = pyplot.subplots(
@@ -126,7 +137,7 @@ def draw_effects(rows, path):
     save(figure, path)
 
 
-def draw_ticks(rows, path):
+def draw_ticks(rows: Sequence[TickRow], path: str | PathLike[str]) -> None:
     """Draw error of the rest against tick rate, a panel a scene, to a PNG file."""
     scenes = list(dict.fromkeys(row.scene for row in rows))
     figure, panels = pyplot.subplots(
@@ -155,7 +166,7 @@ def draw_ticks(rows, path):
     save(figure, path)
 
 
-def draw_sizes(rows, path):
+def draw_sizes(rows: Sequence[SizeRow], path: str | PathLike[str]) -> None:
     """Draw time of a play against what is counted, a panel each, to a PNG file."""
     kinds = list(dict.fromkeys(row.what for row in rows))
     figure, panels = pyplot.subplots(

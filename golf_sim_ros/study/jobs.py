@@ -14,36 +14,42 @@
 
 """Jobs of a study: one function for each row."""
 
+from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache, partial
+from typing import Any
 
 from . import effects, promises, sizes, ticks
-from .measure import measured, Stage
-from .methods import methods, TRUTH
-from .scenes import quick_scenes, scenes
+from .measure import measured, Row, Stage, Truth
+from .methods import Method, methods, TRUTH
+from .scenes import Game, quick_scenes, Scene, scenes
 
 TICKED = ('iron into a green', 'bouncing on hard ground', 'mesh bounce')
 
 
-def jobs(quick):
+def jobs(quick: bool) -> list[tuple[str, Callable[[], Any]]]:
     """Part and function of each row: a list of pairs, of the quick study or of the full one."""
-    found = quick_scenes() if quick else scenes()
+    found: tuple[Scene | Game, ...] = quick_scenes() if quick else scenes()
     fairway = found[0].course.ground[0].material
-    parts = {'methods': of_methods(found), 'promises': promises.jobs(fairway)}
+    parts: dict[str, Iterable[Callable[[], Any]]] = {
+        'methods': of_methods(found),
+        'promises': promises.jobs(fairway),
+    }
     if not quick:
         parts['effects'] = effects.jobs(found)
-        parts['ticks'] = ticks.jobs([scene for scene in found if scene.name in TICKED])
+        ticked = [one for one in found if isinstance(one, Scene) and one.name in TICKED]
+        parts['ticks'] = ticks.jobs(ticked)
         parts['sizes'] = sizes.jobs(found[1].course.ground[0].material)
     return [(part, job) for part, some in parts.items() for job in some]
 
 
-def of_methods(found):
-    """A function for each row of a method on a scene."""
+def of_methods(found: Iterable[Scene | Game]) -> Iterator[Callable[[], Row]]:
+    """Yield a function for each row of a method on a scene."""
     for scene in found:
         truth = lru_cache(Stage(scene, TRUTH))
         for method in methods(scene):
             yield partial(against, scene, truth, method)
 
 
-def against(scene, truth, method):
+def against(scene: Scene | Game, truth: Callable[[], Truth], method: Method) -> Row:
     """`Row` of a method, with what ``truth()`` finds as yardstick."""
     return measured(scene, truth(), method)

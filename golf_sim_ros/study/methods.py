@@ -12,15 +12,16 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Methods of the study: integrators over their settings, the presets, scipy's, and the report's."""
+"""Methods of the study: integrators over their settings, presets, scipy's, and the report's."""
 
+from collections.abc import Callable
 from functools import partial
-from typing import Callable, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from .measure import Stage, Truth
-from .scenes import Scene
+from .measure import Play, Stage, Truth
+from .scenes import Game, Scene
 from .scipy_flight import fly
 from ..physics import ACCURACY, METHODS, Plane, Preset
 from ..physics.baselines.report_2019 import play_report_2019
@@ -46,10 +47,10 @@ class Method(NamedTuple):
 
     name: str
     setting: str
-    ready: Callable
+    ready: Callable[[Any], Play]
 
 
-def methods(scene):
+def methods(scene: Scene | Game) -> tuple[Method, ...]:
     """Methods to try on a scene."""
     found = [
         Method(
@@ -72,17 +73,17 @@ def methods(scene):
     return tuple(found)
 
 
-def made(name, setting):
+def made(name: str, setting: float) -> Preset:
     """`Preset` of an integrator; everything else is as exact as in the preset `reference`."""
     return Preset(METHODS[name].record(setting), ACCURACY['reference'].limits)
 
 
-def by_preset(preset, scene):
-    """Play with the engine of this package."""
+def by_preset(preset: Preset, scene: Scene | Game) -> Stage:
+    """Make the play by the engine of this package."""
     return Stage(scene, preset)
 
 
-def by_report(scene, count):
+def by_report(scene: Scene, count: int) -> Truth:
     """Play as the report of 2019 did."""
     shot = scene.shot
     touch, rest = play_report_2019(
@@ -91,11 +92,14 @@ def by_report(scene, count):
         np.tile(shot.spin, (count, 1)),
         scene.wind,
     )
-    return Truth(tuple(touch[0, :2]), (tuple(rest[0]),))
+    return Truth((touch[0, 0], touch[0, 1]), ((rest[0, 0], rest[0, 1], rest[0, 2]),))
 
 
-def by_scipy(name, rtol, scene):
-    """Fly with scipy up to the first touch."""
-    return lambda count: [
-        Truth(tuple(fly(scene, name, rtol)[:2]), NOT_PLAYED) for _ in range(count)
-    ][0]
+def by_scipy(name: str, rtol: float, scene: Scene) -> Play:
+    """Make the play that flies with scipy up to the first touch."""
+
+    def play(count: int) -> Truth:
+        x, y, *_ = [fly(scene, name, rtol) for _ in range(count)][0]
+        return Truth((x, y), NOT_PLAYED)
+
+    return play

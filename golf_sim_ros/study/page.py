@@ -14,13 +14,16 @@
 
 """Page on what accuracy costs: figures, tables, and what they mean."""
 
+from collections.abc import Callable, Sequence
 import csv
+from pathlib import Path
 import platform
+from typing import Any
 
 from . import figures, tables
 
 
-def write(found, folder, command):
+def write(found: dict[str, list], folder: Path, command: str) -> None:
     """Write page, figures and rows of a study into a folder.
 
     Parameters
@@ -37,14 +40,14 @@ def write(found, folder, command):
         if part in DRAW:
             DRAW[part](rows, folder / f'{stem}.png')
     text = ''.join(SECTIONS[part].format(**facts(part, rows)) for part, rows in found.items())
-    rows = ROWS.format(rows=tables.full_table(found['methods']))
+    all_rows = ROWS.format(rows=tables.full_table(found['methods']))
     head = HEAD.format(
         command=command, machine=platform.machine(), python=platform.python_version()
     )
-    (folder / 'accuracy.md').write_text(head + text + rows, encoding='utf-8')
+    (folder / 'accuracy.md').write_text(head + text + all_rows, encoding='utf-8')
 
 
-def write_csv(rows, path):
+def write_csv(rows: Sequence[Any], path: Path) -> None:
     """Write rows, with their field names, to a CSV file."""
     with open(path, 'w', newline='', encoding='utf-8') as file:
         writer = csv.writer(file, lineterminator='\n')
@@ -52,9 +55,9 @@ def write_csv(rows, path):
         writer.writerows(rows)
 
 
-def facts(part, rows):
+def facts(part: str, rows: Sequence[Any]) -> dict[str, Any]:
     """Values that a section's text leaves open, by name."""
-    made = {
+    made: dict[str, dict[str, Callable[[Sequence[Any]], Any]]] = {
         'methods': {
             'presets': tables.preset_table,
             'equal': tables.equal_error_table,
@@ -76,7 +79,7 @@ NAMES = {
     'ticks': 'accuracy_ticks',
     'sizes': 'accuracy_sizes',
 }
-DRAW = {
+DRAW: dict[str, Callable[[Sequence[Any], Path], None]] = {
     'methods': figures.draw,
     'effects': figures.draw_effects,
     'ticks': figures.draw_ticks,
@@ -85,29 +88,31 @@ DRAW = {
 
 HEAD = """# What accuracy costs
 
-Made by `{command}` on {machine}, Python {python}; do not edit. Errors are distances from a far tighter
-reference; times are medians for one whole shot, flight to rest, in a batch, on one thread. Compare times
-within this page only: machines differ, ratios less so.
+Made by `{command}` on {machine}, Python {python}; do not edit. Errors are distances from a far
+tighter reference; times are medians for one whole shot, flight to rest, in a batch, on one thread.
+Compare times within this page only: machines differ, ratios less so.
 """
 
 METHODS = """
 ![time against error](accuracy.png)
 
-Each line is a method over its dial, more exact to the right; lower is faster. scipy flies to the first
-touch only, everything else plays to the rest. The rows are in [accuracy.csv](accuracy.csv).
+Each line is a method over its dial, more exact to the right; lower is faster. scipy flies to the
+first touch only, everything else plays to the rest. The rows are in [accuracy.csv](accuracy.csv).
 
 ## Which preset for what
 
 {presets}
 
 - Watching: `sketch`. Nobody sees the difference on a screen.
-- Playing: `standard`. A ball that is a centimetre off is within what a real one would be, hit twice.
+- Playing: `standard`. A ball that is a centimetre off is within what a real one would be, hit
+  twice.
 - Research: `reference`, where differences of shots are looked at, or another method is judged.
 
-The promises are for level ground and still air; a scene in gusts, or of several strokes, is allowed more.
-A putt on a plane is exact in every preset: rolling there is in closed form. Where the ground is hard and
-bounces are many, an error of the flight grows with every bounce, so the rest is less exact than the first
-touch. Where balls hit many others, it grows so fast that no preset foretells for long who ends where.
+The promises are for level ground and still air; a scene in gusts, or of several strokes, is
+allowed more. A putt on a plane is exact in every preset: rolling there is in closed form. Where
+the ground is hard and bounces are many, an error of the flight grows with every bounce, so the
+rest is less exact than the first touch. Where balls hit many others, it grows so fast that no
+preset foretells for long who ends where.
 
 ## At equal error
 
@@ -119,29 +124,29 @@ Where Dormand-Prince was not the fastest:
 
 {exceptions}
 
-RK4 takes five evaluations a step against seven, with no error estimate: where a flight is smooth, its fixed
-step loses nothing. But nothing tells RK4 which step a scene needs. Euler is first order and needs steps far
-below a millisecond for a centimetre.
+RK4 takes five evaluations a step against seven, with no error estimate: where a flight is smooth,
+its fixed step loses nothing. But nothing tells RK4 which step a scene needs. Euler is first order
+and needs steps far below a millisecond for a centimetre.
 
 ## The model of the report of 2019
 
-Linear drag, wind as a force that grows with height, a percentage of spin lost at every bounce, sand that
-swallows everything, semi-implicit Euler at 50 Hz with push-out
-(`golf_sim_ros/physics/baselines/report_2019.py`).
-What that costs against the model here:
+Linear drag, wind as a force that grows with height, a percentage of spin lost at every bounce,
+sand that swallows everything, semi-implicit Euler at 50 Hz with push-out
+(`golf_sim_ros/physics/baselines/report_2019.py`). What that costs against the model here:
 
 {report}
 
-Linear drag is right at one speed only: too weak for a driver, too strong for a pitch. Friction without
-torque never makes a ball roll, so it skids until it stops. Push-out at 50 Hz lets a drive sink half a
-metre into the ground before it is noticed, and gives back energy that the impact had taken.
+Linear drag is right at one speed only: too weak for a driver, too strong for a pitch. Friction
+without torque never makes a ball roll, so it skids until it stops. Push-out at 50 Hz lets a drive
+sink half a metre into the ground before it is noticed, and gives back energy that the impact had
+taken.
 """
 
 PROMISES = """
 ## What the presets promise, tried
 
-Random shots onto a level fairway in still air: 5 to 90 m/s, 2 to 60 degrees high, spin up to 1000 rad/s about
-any axis. Off from a far tighter reference:
+Random shots onto a level fairway in still air: 5 to 90 m/s, 2 to 60 degrees high, spin up to 1000
+rad/s about any axis. Off from a far tighter reference:
 
 {table}
 """
@@ -151,8 +156,8 @@ EFFECTS = """
 
 ![each effect's cost](accuracy_effects.png)
 
-Each scene once more, at `standard`, without one of its effects; timed in turns with the whole. What is saved
-can be negative: a ball that drag does not brake flies and bounces for longer.
+Each scene once more, at `standard`, without one of its effects; timed in turns with the whole.
+What is saved can be negative: a ball that drag does not brake flies and bounces for longer.
 
 {table}
 
@@ -160,8 +165,8 @@ Without these a ball rests within a centimetre of where it would:
 
 {dispensable}
 
-`effects: auto` goes further where it is certain: it leaves out what the scene has no cause for, so that
-nothing moves at all. Of several balls it is the one that moved farthest that is told.
+`effects: auto` goes further where it is certain: it leaves out what the scene has no cause for, so
+that nothing moves at all. Of several balls it is the one that moved farthest that is told.
 """
 
 TICKS = """
@@ -169,9 +174,9 @@ TICKS = """
 
 ![error against tick rate](accuracy_ticks.png)
 
-The rest, by how often the play is looked at. Steps end at events, never at ticks, so a preset's error is
-the same at every rate: over all rates here it differs by {spread:.1e} m at most. Where the step is the tick,
-the error falls with the rate, and stays large.
+The rest, by how often the play is looked at. Steps end at events, never at ticks, so a preset's
+error is the same at every rate: over all rates here it differs by {spread:.1e} m at most. Where
+the step is the tick, the error falls with the rate, and stays large.
 
 {table}
 
@@ -185,9 +190,9 @@ SIZES = """
 
 ![time against sizes](accuracy_sizes.png)
 
-Balls: as many 7 irons hit at once, side by side, to the last one's rest, with impacts among them looked for.
-Triangles: a ball that bounces and rolls through the same hills, made of ever finer triangles. Contacts: a
-ball hits a row of as many that touch, all of which push at one instant.
+Balls: as many 7 irons hit at once, side by side, to the last one's rest, with impacts among them
+looked for. Triangles: a ball that bounces and rolls through the same hills, made of ever finer
+triangles. Contacts: a ball hits a row of as many that touch, all of which push at one instant.
 
 {table}
 """

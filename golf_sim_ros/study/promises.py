@@ -14,6 +14,7 @@
 
 """Errors of the presets over many random shots, against what they promise."""
 
+from collections.abc import Callable
 from functools import lru_cache, partial
 from math import pi
 from typing import NamedTuple
@@ -22,13 +23,13 @@ import numpy as np
 
 from .methods import TRUTH
 from .scenes import EFFECTS, level
-from ..physics import ACCURACY, simulate_many
+from ..physics import ACCURACY, Course, Material, Preset, simulate_many
 
 SHOTS = 20_000
 
 
 class PromiseRow(NamedTuple):
-    """A preset over many shots: errors [m] of the first touch, median and worst, and of the rest, worst."""
+    """A preset over many shots: errors [m] of the first touch, and the worst of the rest."""
 
     accuracy: str
     shots: int
@@ -37,14 +38,17 @@ class PromiseRow(NamedTuple):
     rest_worst: float
 
 
-def jobs(material, count=SHOTS):
-    """A function for each row; `count` shots end on level ground of a `material`."""
+def jobs(material: Material, count: int = SHOTS) -> list[Callable[[], PromiseRow]]:
+    """Make a function for each row; `count` shots end on level ground of a `material`."""
     ends = lru_cache(partial(played, level(material), count))
     return [partial(kept, ends, name) for name in ACCURACY]
 
 
-def random_shots(count, seed=1):
-    """Velocities [m/s] and spins [rad/s], (n, 3): 5 to 90 m/s, 2 to 60 degrees high, to 1000 rad/s."""
+def random_shots(count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    """Draw velocities [m/s] and spins [rad/s], (n, 3).
+
+    5 to 90 m/s, 2 to 60 degrees high, spin to 1000 rad/s about any axis.
+    """
     random = np.random.default_rng(seed)
     speed, up = random.uniform(5, 90, count), random.uniform(2, 60, count) * pi / 180
     axes = random.normal(size=(count, 3))
@@ -52,14 +56,17 @@ def random_shots(count, seed=1):
     return np.transpose([speed * np.cos(up), np.zeros(count), speed * np.sin(up)]), spins
 
 
-def played(course, count, accuracy):
-    """First touches (n, 2), along the launch and across, and rests (n, 3) of the random shots [m]."""
+def played(course: Course, count: int, accuracy: str | Preset) -> tuple[np.ndarray, np.ndarray]:
+    """Play the random shots.
+
+    Returns first touches (n, 2), along the launch and across, and rests (n, 3) [m].
+    """
     told = simulate_many(course, *random_shots(count), effects=EFFECTS, accuracy=accuracy)
     side = told['carry_side']
     return np.transpose([np.sqrt(told['carry'] ** 2 - side**2), side]), told['position']
 
 
-def kept(ends, name):
+def kept(ends: Callable[[str | Preset], tuple[np.ndarray, np.ndarray]], name: str) -> PromiseRow:
     """`PromiseRow` of a preset; ``ends(accuracy)`` gives what `played` does."""
     touch, rest = (
         np.linalg.norm(mine - true, axis=1) for mine, true in zip(ends(name), ends(TRUTH))

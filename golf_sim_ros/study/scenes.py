@@ -50,16 +50,17 @@ class Scene(NamedTuple):
     flies: bool = True
 
     @property
-    def effects(self):
+    def effects(self) -> tuple[str, ...]:
         """Names of the effects that the scene is studied with."""
         windy = not isinstance(self.wind[0], float)
         return (*EFFECTS, 'wind') if windy else EFFECTS
 
 
 class Game(NamedTuple):
-    """Balls at `places`, struck one after another: each strike when all balls rest, or all `together`.
+    """Balls at `places`, struck one after another.
 
-    ``strikes``: number of the ball, velocity [m/s], spin [rad/s].
+    Each strike comes when all balls rest, or all `together`. ``strikes``: number of the ball,
+    velocity [m/s], spin [rad/s].
     """
 
     name: str
@@ -72,39 +73,38 @@ class Game(NamedTuple):
     flies: bool = False
 
 
-def gusty(seconds=10.0, seed=1):
-    """Rows of time and wind [m/s]: gusts of 8 +- 4 m/s, another every two seconds, and turbulence."""
+def gusty(seconds: float = 10.0, seed: int = 1) -> tuple[tuple[float, ...], ...]:
+    """Rows of time and wind [m/s]: gusts of 8 +- 4 m/s, another every two seconds, turbulence."""
     gusts = Gusts(GustSettings(8.0, 4.0, 0.0, pi, interval=2.0, turbulence=0.1), seed)
     steps = int(seconds / GUST_STEP)
     return tuple((i * GUST_STEP, *gusts.wind(i * GUST_STEP)) for i in range(steps))
 
 
-def club_shot(name):
+def club_shot(name: str) -> Shot:
     """`Shot` of a club's tour average, along +x."""
-    return Shot(*velocity_and_spin(CLUBS[name].launch, 0.0))
+    launch = CLUBS[name].launch
+    assert launch is not None, f'{name} has no average shot'
+    return Shot(*velocity_and_spin(launch, 0.0))
 
 
-def level(material):
-    """A level `Course` of one material."""
+def level(material: Material) -> Course:
+    """Make a level `Course` of one material."""
     return Course(ground=(Plane(material=material),))
 
 
-def sloping(material):
-    """A `Course` of one material that falls to the right."""
+def sloping(material: Material) -> Course:
+    """Make a `Course` of one material that falls to the right."""
     return Course(ground=(Plane((0.0, 0.0, 0.0), (0.0, -STEEP, 1.0), material),))
 
 
-def lofted(speed, degrees, backspin):
+def lofted(speed: float, degrees: float, backspin: float) -> Shot:
     """`Shot` along +x at a launch angle."""
     angle = degrees * pi / 180
     return Shot((speed * cos(angle), 0.0, speed * sin(angle)), (0.0, -backspin, 0.0))
 
 
-def quick_scenes():
-    """Scenes of the quick study: a tuple of `Scene`.
-
-    CourseError where a shipped material can't be read.
-    """
+def quick_scenes() -> tuple[Scene, ...]:
+    """Scenes of the quick study; CourseError where a shipped material can't be read."""
     found = materials({}, shipped()[0])
     return (
         Scene('drive in gusty wind', level(found['fairway']), club_shot('driver'), gusty()),
@@ -114,11 +114,8 @@ def quick_scenes():
     )
 
 
-def scenes():
-    """Scenes of the full study: a tuple of `Scene` and `Game`.
-
-    CourseError as in `quick_scenes`.
-    """
+def scenes() -> tuple[Scene | Game, ...]:
+    """Scenes of the full study; CourseError as in `quick_scenes`."""
     green = materials({}, shipped()[0])['green']
     in_sand = load_course('golf_without_friends')._replace(tee=BUNKER)
     return (
@@ -132,13 +129,16 @@ def scenes():
     )
 
 
-def hard(rolling_resistance=0.02):
-    """A `Material` off which a ball bounces often."""
+def hard(rolling_resistance: float = 0.02) -> Material:
+    """Make a `Material` off which a ball bounces often."""
     return Material('hard', Restitution(0.8), 0.0, 0.5, 0.3, rolling_resistance, 0.003)
 
 
-def hills(triangles):
-    """A `Course` of a mesh of about as many `triangles`: a bowl 120 m wide with gentle hills in it."""
+def hills(triangles: int) -> Course:
+    """Make a `Course` of a mesh of about as many `triangles`.
+
+    It is a bowl 120 m wide with gentle hills in it.
+    """
     across = round(sqrt(triangles / 2)) + 1
     x, y = map(np.ravel, np.meshgrid(*2 * [np.linspace(-60.0, 60.0, across)]))
     z = 0.0005 * (x * x + y * y) - 0.15 * np.cos(0.4 * x) * np.cos(0.5 * y)
@@ -150,8 +150,8 @@ def hills(triangles):
     return Course((Mesh(np.transpose([x, y, z]), np.concatenate(faces), hard(HEAVY_GOING)),))
 
 
-def rack(balls):
-    """A `Game`: the last ball breaks a rack of the others on cloth."""
+def rack(balls: int) -> Game:
+    """Make a `Game`: the last ball breaks a rack of the others on cloth."""
     radius = Ball().radius
     rows = [(row, k) for row in range(balls) for k in range(row + 1)][:balls]
     places = [(row * sqrt(3) * radius, (2 * k - row) * radius, radius) for row, k in rows]
@@ -169,8 +169,8 @@ def rack(balls):
     )
 
 
-def hole():
-    """A `Game`: a drive, a pitch and two putts on `links` until it is holed, in wind."""
+def hole() -> Game:
+    """Make a `Game`: a drive, a pitch and two putts on `links` until it is holed, in wind."""
     course = load_course('links')
     shots = (
         (club_shot('driver'), 4.0),
@@ -189,7 +189,7 @@ def hole():
     )
 
 
-def turned(shot, degrees):
+def turned(shot: Shot, degrees: float) -> tuple[tuple[float, float, float], ...]:
     """Velocity and spin of a `Shot` turned to the left."""
     c, s = cos(degrees * pi / 180), sin(degrees * pi / 180)
     return tuple((c * x - s * y, s * x + c * y, z) for x, y, z in shot)

@@ -14,10 +14,14 @@
 
 """Flight by scipy's solve_ivp, as one would write it without this package: a yardstick."""
 
+from collections.abc import Callable, Sequence
 from math import log, sqrt
+from typing import Any
 
+import numpy as np
 from scipy.integrate import solve_ivp
 
+from .scenes import Scene as StudyScene
 from ..physics.effects import choose, Scene
 from ..physics.effects.drag import drag_coefficient
 from ..physics.effects.magnus import lift_per_ratio
@@ -26,7 +30,7 @@ from ..physics.simulation import checked_gusts
 LONGEST = 60.0  # s
 
 
-def fly(scene, method, rtol):
+def fly(scene: StudyScene, method: str, rtol: float) -> np.ndarray:
     """State (x, y, z, velocity, spin) where a shot first touches level ground at height 0.
 
     The right-hand side is in scalar arithmetic, which is several times as fast as small arrays.
@@ -35,10 +39,10 @@ def fly(scene, method, rtol):
     radius = scene.course.ball.radius
     gusts = checked_gusts(scene.wind)
 
-    def height(time, state):
+    def height(time: float, state: Sequence[float]) -> float:
         return state[2] - radius
 
-    height.terminal, height.direction = True, -1
+    vars(height).update(terminal=True, direction=-1)  # to end there, on the way down
 
     state = [0.0, 0.0, radius, *scene.shot.velocity, *scene.shot.spin]
     ends = [*gusts[1:, 0], LONGEST]
@@ -58,14 +62,16 @@ def fly(scene, method, rtol):
     raise ValueError(f'{scene.name}: still in the air after {LONGEST:g} s')
 
 
-def rates(records, wind, radius):
+def rates(
+    records: dict[str, Any], wind: Sequence[float], radius: float
+) -> Callable[[float, Sequence[float]], tuple[float, ...]]:
     """Right-hand side for the effects' `records` in a `wind` at 10 m over level ground."""
     drag, magnus, decay = records['drag'], records['magnus'], records['spin_decay']
     g = records['gravity'].g
     profile = records.get('wind')
     cd, cl = drag_coefficient, lift_per_ratio
 
-    def right_hand_side(time, state):
+    def right_hand_side(time: float, state: Sequence[float]) -> tuple[float, ...]:
         _, _, z, vx, vy, vz, wx, wy, wz = state
         share = profile.weight * log(1.0 + max(z, 0.0) / profile.parameter) if profile else 0.0
         ux, uy, uz = vx - share * wind[0], vy - share * wind[1], vz - share * wind[2]

@@ -14,6 +14,7 @@
 
 """Growth of the time with balls, triangles and contacts."""
 
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import NamedTuple
 
@@ -33,26 +34,27 @@ class SizeRow(NamedTuple):
     """Time [s] of one play with `count` of `what`."""
 
     what: str
-    count: int
+    count: int  # type: ignore[assignment]  # hides that of tuple, which a row has no use for
     time: float
 
 
-def jobs(material):
-    """A function for each row; balls fly over a `material`."""
+def jobs(material: Material) -> Iterator[Callable[[], SizeRow]]:
+    """Yield a function for each row; balls fly over a `material`."""
     yield from (partial(grown, 'balls', count, volley(count, material)) for count in BALLS)
     yield from (partial(grown, 'triangles', count, rolling(count)) for count in TRIANGLES)
     yield from (partial(grown, 'contacts', count, row(count)) for count in CONTACTS)
 
 
-def grown(what, count, game):
+def grown(what: str, count: int, game: Game) -> SizeRow:
     """`SizeRow` of a `Game` at `standard`."""
     stage = Stage(game, 'standard')
     stage()
-    return SizeRow(what, count, *timed(stage))
+    (time,) = timed(stage)
+    return SizeRow(what, count, time)
 
 
-def volley(count, material):
-    """A `Game`: as many 7 irons, hit at once from one long tee.
+def volley(count: int, material: Material) -> Game:
+    """Make a `Game`: as many 7 irons, hit at once from one long tee.
 
     They fly, bounce and roll side by side.
     """
@@ -68,14 +70,17 @@ def volley(count, material):
     )
 
 
-def rolling(triangles):
-    """A `Game`: one ball that bounces and rolls over a mesh until it rests."""
+def rolling(triangles: int) -> Game:
+    """Make a `Game`: one ball that bounces and rolls over a mesh until it rests."""
     shot = lofted(10.0, 40.0, 0.0)
     return Game('mesh bounce', hills(triangles), ((0.0, 0.0),), ((0, *shot),), EFFECTS)
 
 
-def row(contacts):
-    """A `Game`: a ball hits a row of so many, which touch each other: all impacts are at one instant."""
+def row(contacts: int) -> Game:
+    """Make a `Game`: a ball hits a row of so many that touch each other.
+
+    All impacts are at one instant.
+    """
     floor = Material('smooth', Restitution(0.0), 0.0, 0.5, 0.5, 0.5)
     course = Course((Plane(material=floor),), tee=AWAY, ball=Ball(restitution=0.9, friction=0.0))
     width = 2.0 * Ball().radius

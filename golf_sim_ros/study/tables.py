@@ -14,23 +14,32 @@
 
 """Tables of the page on what accuracy costs."""
 
+from collections.abc import Sequence
 from math import isfinite
 
 import numpy as np
 
+from .effects import EffectRow
+from .measure import Row
+from .promises import PromiseRow
+from .sizes import SizeRow
+from .ticks import TickRow
 from ..physics import ACCURACY
 
 LEVELS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)  # m
 CENTIMETRE = 0.01  # m
 
 
-def seconds_at(rows, method, level):
-    """Least time [s] of a method's settings that are exact to `level` [m] at first touch, or None."""
+def seconds_at(rows: Sequence[Row], method: str, level: float) -> float | None:
+    """Least time [s] of the settings of a method that are exact to `level` [m] at first touch.
+
+    None where none is.
+    """
     fit = [row.time for row in rows if row.method == method and row.touch_error <= level]
     return min(fit, default=None)
 
 
-def equal_error_table(rows):
+def equal_error_table(rows: Sequence[Row]) -> str:
     """Markdown table: time at equal error of each integrator, over that of Dormand-Prince."""
     lines = [
         '| scene | error at most | Dormand-Prince | RK4 | Euler | scipy RK45 | scipy DOP853 |',
@@ -54,7 +63,7 @@ def equal_error_table(rows):
     return '\n'.join(lines)
 
 
-def exceptions(rows):
+def exceptions(rows: Sequence[Row]) -> str:
     """Sentences about where Dormand-Prince is not the fastest at equal error."""
     found = []
     for scene in dict.fromkeys(row.scene for row in rows if isfinite(row.touch_error)):
@@ -70,10 +79,11 @@ def exceptions(rows):
     return '\n'.join(found) or 'There was none in this run.'
 
 
-def full_table(rows):
+def full_table(rows: Sequence[Row]) -> str:
     """Markdown table of all rows."""
     lines = [
-        '| scene | method | setting | first touch off by | rest off by | time of a shot | compiling |',
+        '| scene | method | setting | first touch off by | rest off by | time of a shot '
+        '| compiling |',
         '|---|---|---|---|---|---|---|',
     ]
     for row in rows:
@@ -86,7 +96,7 @@ def full_table(rows):
     return '\n'.join(lines)
 
 
-def preset_table(rows):
+def preset_table(rows: Sequence[Row]) -> str:
     """Markdown table of the presets: promise, worst of the study, time."""
     lines = [
         '| preset | promises, first touch and rest | worst here | time of a shot | for |',
@@ -105,7 +115,7 @@ def preset_table(rows):
     return '\n'.join(lines)
 
 
-def promise_table(rows):
+def promise_table(rows: Sequence[PromiseRow]) -> str:
     """Markdown table: promises of the presets, and what many shots showed."""
     lines = [
         '| preset | shots | first touch: median | worst | promised | rest: worst | promised |',
@@ -114,13 +124,14 @@ def promise_table(rows):
     for row in rows:
         preset = ACCURACY[row.accuracy]
         lines.append(
-            f'| {row.accuracy} | {row.shots:,} | {row.touch_median:.1e} m | {row.touch_worst:.1e} m '
-            f'| {preset.touch:g} m | {row.rest_worst:.1e} m | {preset.rest:g} m |'
+            f'| {row.accuracy} | {row.shots:,} | {row.touch_median:.1e} m '
+            f'| {row.touch_worst:.1e} m | {preset.touch:g} m '
+            f'| {row.rest_worst:.1e} m | {preset.rest:g} m |'
         )
     return '\n'.join(lines)
 
 
-def report_costs(rows):
+def report_costs(rows: Sequence[Row]) -> str:
     """Markdown list: what the report's choices cost in each scene."""
     lines = []
     for row in rows:
@@ -132,7 +143,7 @@ def report_costs(rows):
     return '\n'.join(lines)
 
 
-def effect_table(rows):
+def effect_table(rows: Sequence[EffectRow]) -> str:
     """Markdown table: what each effect costs, and how far off the shot ends without it."""
     lines = [
         '| scene | without | first touch elsewhere by | rest elsewhere by | time saved |',
@@ -146,8 +157,11 @@ def effect_table(rows):
     return '\n'.join(lines)
 
 
-def dispensable(rows):
-    """Markdown list: by scene, effects without which the ball rests within a centimetre of where it would."""
+def dispensable(rows: Sequence[EffectRow]) -> str:
+    """Markdown list: effects that a scene can do without.
+
+    Without them the ball rests within a centimetre of where it would.
+    """
     lines = []
     for scene in dict.fromkeys(row.scene for row in rows):
         own = [row for row in rows if row.scene == scene and row.rest_moved <= CENTIMETRE]
@@ -158,7 +172,7 @@ def dispensable(rows):
     return '\n'.join(lines)
 
 
-def tick_table(rows):
+def tick_table(rows: Sequence[TickRow]) -> str:
     """Markdown table: error over the tick rate, a line a scene and an accuracy."""
     rates = list(dict.fromkeys(row.rate for row in rows))
     lines = [
@@ -179,28 +193,29 @@ def tick_table(rows):
     return '\n'.join(lines)
 
 
-def spread(rows):
-    """How much [m] a preset's error differs at most between tick rates, in one scene."""
-    kept = {}
+def spread(rows: Sequence[TickRow]) -> float:
+    """Find how much [m] a preset's error differs at most between tick rates, in one scene."""
+    kept: dict[tuple[str, str], list[float]] = {}
     for row in rows:
         if row.accuracy in ACCURACY:
             kept.setdefault((row.scene, row.accuracy), []).append(row.rest_error)
     return max(max(errors) - min(errors) for errors in kept.values())
 
 
-def tick_costs(rows):
-    """Markdown table: share of a core that a simulated second takes at `standard`, by tick rate."""
+def tick_costs(rows: Sequence[TickRow]) -> str:
+    """Markdown table: share of a core for a simulated second at `standard`, by tick rate."""
     own = [row for row in rows if row.accuracy == 'standard']
     lines = ['| scene | ticks a second | of a core in real time |', '|---|---|---|']
     lines += [f'| {row.scene} | {row.rate:g} | {100 * row.time:.3f} % |' for row in own]
     return '\n'.join(lines)
 
 
-def size_table(rows):
+def size_table(rows: Sequence[SizeRow]) -> str:
     """Markdown table: time of one play, and for each of what is counted."""
     lines = ['| what | how many | time of a play | for each |', '|---|---|---|---|']
     lines += [
-        f'| {row.what} | {row.count} | {1e6 * row.time:.0f} us | {1e6 * row.time / row.count:.3g} us |'
+        f'| {row.what} | {row.count} | {1e6 * row.time:.0f} us '
+        f'| {1e6 * row.time / row.count:.3g} us |'
         for row in rows
     ]
     return '\n'.join(lines)

@@ -14,6 +14,7 @@
 
 """Whether the error depends on the tick rate, and what ticks cost."""
 
+from collections.abc import Callable, Iterable, Iterator
 from functools import partial
 from typing import NamedTuple
 
@@ -21,6 +22,7 @@ import numpy as np
 
 from .measure import Stage, ticked
 from .methods import made, TRUTH
+from .scenes import Scene
 from ..physics import ACCURACY
 
 RATES = (10.0, 50.0, 250.0, 1000.0, 4000.0)  # Hz
@@ -42,8 +44,8 @@ class TickRow(NamedTuple):
     time: float
 
 
-def jobs(scenes):
-    """A function for each row."""
+def jobs(scenes: Iterable[Scene]) -> Iterator[Callable[[], TickRow]]:
+    """Yield a function for each row."""
     for scene in scenes:
         for rate in RATES:
             for name in ACCURACY:
@@ -51,13 +53,13 @@ def jobs(scenes):
             yield partial(by_steps, scene, rate)
 
 
-def by_ticks(scene, accuracy, rate):
+def by_ticks(scene: Scene, accuracy: str, rate: float) -> TickRow:
     """`TickRow` of a preset."""
     found, time = ticked(scene, accuracy, rate)
     return TickRow(scene.name, accuracy, rate, *Stage(scene, TRUTH)().errors(found), time)
 
 
-def by_steps(scene, rate):
+def by_steps(scene: Scene, rate: float) -> TickRow:
     """`TickRow` of an integrator whose step is the tick."""
     errors = Stage(scene, TRUTH)().errors(Stage(scene, made('euler', 1.0 / rate))())
     return TickRow(scene.name, STEPPED, rate, *errors, np.nan)

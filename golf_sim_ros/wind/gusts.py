@@ -29,6 +29,8 @@ import numpy as np
 # Eddies of 60 m (50 to 120 m are usual 10 m above open country) carried by 4 m/s pass in 15 s.
 TURBULENCE_TIME = 15.0  # s, correlation time of the turbulence
 
+Pair = tuple[float, float]  # x and y
+
 _GUSTS, _TURBULENCE = 0, 1  # which of a seed's two families of generators
 _STEPS = 100  # steps of the turbulence in a correlation time
 _BLOCK = 40 * _STEPS  # after these steps only exp(-40) of a value is left
@@ -71,21 +73,21 @@ class Gusts:
         Not negative. The same seed gives the same gusts.
     """
 
-    def __init__(self, settings, seed):
+    def __init__(self, settings: GustSettings, seed: int) -> None:
         self.settings = settings
         self.seed = seed
         self._changed_at = 0.0
         # how far the wind was from the new settings' when they changed
         self._left_over = (0.0, 0.0)
 
-    def wind(self, time):
-        """Velocity of the wind (x, y, z) [m/s] at `time` [s]."""
+    def wind(self, time: float) -> tuple[float, float, float]:
+        """Velocity (x, y, z) [m/s] of the wind at `time` [s]."""
         x, y = turbulent_wind(self.settings, self.seed, time)
         since = time - self._changed_at
         left = 1.0 - _eased(since, self.settings.ramp) if since >= 0.0 else 0.0
         return x + left * self._left_over[0], y + left * self._left_over[1], 0.0
 
-    def change(self, settings, time):
+    def change(self, settings: GustSettings, time: float) -> None:
         """Change to new `settings` from `time` on, eased in over their ramp."""
         old_x, old_y, _ = self.wind(time)
         new_x, new_y = turbulent_wind(settings, self.seed, time)
@@ -94,8 +96,8 @@ class Gusts:
         self._left_over = (old_x - new_x, old_y - new_y)
 
 
-def gust(settings, seed, number):
-    """Wind (x, y) [m/s] of the gust `number`, any integer, once it is eased in."""
+def gust(settings: GustSettings, seed: int, number: int) -> Pair:
+    """Velocity (x, y) [m/s] of the gust `number`, any integer, once it is eased in."""
     by_speed, by_direction = _draws(seed, number)
     speed = max(0.0, settings.speed + by_speed * settings.speed_spread)
     direction = settings.direction + by_direction * settings.direction_spread
@@ -103,12 +105,12 @@ def gust(settings, seed, number):
 
 
 @lru_cache(maxsize=8)
-def _draws(seed, number):
+def _draws(seed: int, number: int) -> list[float]:
     return _generator(seed, _GUSTS, number).uniform(-1.0, 1.0, 2).tolist()
 
 
-def gust_wind(settings, seed, time):
-    """Wind (x, y) [m/s] at `time` [s], without turbulence."""
+def gust_wind(settings: GustSettings, seed: int, time: float) -> Pair:
+    """Velocity (x, y) [m/s] of the wind at `time` [s], without turbulence."""
     number = floor(time / settings.interval)
     ramp = min(settings.ramp, settings.interval)
     share = _eased(time - number * settings.interval, ramp)
@@ -116,8 +118,8 @@ def gust_wind(settings, seed, time):
     return _between(old, new, share)
 
 
-def turbulent_wind(settings, seed, time):
-    """Wind (x, y) [m/s] at `time` [s], with turbulence."""
+def turbulent_wind(settings: GustSettings, seed: int, time: float) -> Pair:
+    """Velocity (x, y) [m/s] of the wind at `time` [s], with turbulence."""
     x, y = gust_wind(settings, seed, time)
     if settings.turbulence == 0.0:
         return x, y
@@ -126,7 +128,7 @@ def turbulent_wind(settings, seed, time):
     return x + deviation * by_x, y + deviation * by_y
 
 
-def turbulence(seed, time):
+def turbulence(seed: int, time: float) -> Pair:
     """Values of two independent Ornstein-Uhlenbeck processes at `time`.
 
     Both have mean 0, variance 1 and correlation time 1: the covariance of values a time t apart
@@ -139,13 +141,13 @@ def turbulence(seed, time):
     return _between(_at_step(seed, step), _at_step(seed, step + 1), share)
 
 
-def _at_step(seed, step):
+def _at_step(seed: int, step: int) -> Pair:
     block, index = divmod(step, _BLOCK)
     return _walk(seed, block)[index]
 
 
 @lru_cache(maxsize=4)
-def _walk(seed, block):
+def _walk(seed: int, block: int) -> list[Pair]:
     """Values of the processes at the steps of a `block`.
 
     They begin one block earlier, long forgotten.
@@ -157,19 +159,20 @@ def _walk(seed, block):
     return list(zip(*walks))[_BLOCK:]
 
 
-def _noise(seed, block):
+def _noise(seed: int, block: int) -> np.ndarray:
     return _generator(seed, _TURBULENCE, block).standard_normal((_BLOCK, 2))
 
 
-def _generator(seed, family, number):
+def _generator(seed: int, family: int, number: int) -> np.random.Generator:
     return np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(family, number % 2**64)))
 
 
-def _between(a, b, share):
-    return tuple((1.0 - share) * old + share * new for old, new in zip(a, b))
+def _between(a: Pair, b: Pair, share: float) -> Pair:
+    x, y = ((1.0 - share) * old + share * new for old, new in zip(a, b))
+    return x, y
 
 
-def _eased(since, ramp):
+def _eased(since: float, ramp: float) -> float:
     """Share, 0 to 1, of a change that began `since` [s] ago, smooth at both ends of the `ramp`."""
     if since >= ramp:
         return 1.0

@@ -141,7 +141,7 @@ class PlayedBag:
         return over
 
     def refuse(self):
-        """A strike that can't be played."""
+        """Publish a strike that can't be played."""
         self.shots += 1
         self.tell(
             'shot/result',

@@ -42,7 +42,7 @@ def test_mutated_files_are_read_or_refused_with_one_line(kind):
 
 @pytest.fixture
 def outcome(monkeypatch):
-    """What is said of a case that does something."""
+    """Return what is said of a case that does something."""
     monkeypatch.syspath_prepend(str(TOOLS))
     import signal
 

@@ -27,7 +27,7 @@ SPINS = floats(-1000.0, 1000.0)
 
 
 def magnus_direction(velocity, spin):
-    """The Magnus force points along spin x velocity."""
+    """Magnus force points along spin x velocity."""
     return np.cross(spin, velocity)
 
 

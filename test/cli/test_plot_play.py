@@ -23,7 +23,7 @@ import pytest
 
 pytest.importorskip('matplotlib')
 pytest.importorskip('rosbags')
-from golf_sim_ros.cli.plot_play import main  # noqa: E402
+from golf_sim_ros.cli.plot_play import main  # noqa: E402, I100
 from golf_sim_ros.drawing import recorded  # noqa: E402
 from golf_sim_ros.drawing.wind import blown  # noqa: E402
 from golf_sim_ros.recording.bag import read_bag  # noqa: E402
@@ -36,7 +36,7 @@ ROS = ('rclpy', 'std_msgs', 'geometry_msgs', 'rosidl_runtime_py', 'rosbag2_py')
 
 
 def played(path, storage='mcap', left_out=(), namespace=''):
-    """Bag of a drive with a gust, a refused strike and a pitch.
+    """Write a bag of a drive with a gust, a refused strike and a pitch.
 
     Returns the results of what was played.
     """
@@ -51,7 +51,7 @@ def played(path, storage='mcap', left_out=(), namespace=''):
 
 @pytest.fixture(scope='module', params=['mcap', 'sqlite3'])
 def bag(request, tmp_path_factory):
-    """A bag's path and the results of its shots."""
+    """Return a bag's path and the results of its shots."""
     path = tmp_path_factory.mktemp('bags') / request.param
     return path, played(path, request.param)
 

@@ -17,14 +17,11 @@
 import json
 from math import nextafter
 
+from golf_sim_ros.cli.resimulate import main
+from golf_sim_ros.course import shipped_courses
+from golf_sim_ros.recording.journal import opened, sealed
 import pytest
-
-pytest.importorskip('rosbags')
-
-from golf_sim_ros.cli.resimulate import main  # noqa: E402
-from golf_sim_ros.course import shipped_courses  # noqa: E402
-from golf_sim_ros.recording.journal import opened, sealed  # noqa: E402
-from recorded_play import bag, changed, LAST, made, replaced, Sim, STRIKES, without  # noqa: E402
+from recorded_play import bag, changed, LAST, made, replaced, Sim, STRIKES, without
 
 
 @pytest.fixture(scope='module')
@@ -39,7 +36,7 @@ def told():
 
 
 def lines(captured):
-    """What was printed of shots."""
+    """Find what was printed of shots."""
     return [line for line in captured.out.splitlines() if line.startswith('shot')]
 
 
@@ -120,7 +117,7 @@ def test_a_changed_collision_or_result_is_found(told, tmp_path, capsys, topic, o
 
 
 def reseal(kind, change):
-    """A change of an entry of the journal that its checksum does not tell."""
+    """Change an entry of the journal so that its checksum does not tell."""
 
     def edit(message):
         entry = {key: value for key, value in opened(message.data).items() if key != 'crc32'}
@@ -177,7 +174,8 @@ def test_what_was_told_before_the_first_strike_in_the_bag_does_not_count(told, t
     strikes = [
         i for i, one in enumerate(told) if one[0] == '/journal' and '"strike"' in one[3].data
     ]
-    late = [told[0], *without(told[: strikes[2]], 'journal', 'pose', 'twist'), *told[strikes[2] :]]
+    third = strikes[2]
+    late = [told[0], *without(told[:third], 'journal', 'pose', 'twist'), *told[third:]]
     assert main([str(bag(tmp_path / 'bag', late))]) == 0
     assert capsys.readouterr().out.endswith('3 of 3 identical\n')
 
@@ -198,7 +196,8 @@ def test_a_shot_with_missing_entries_is_named_and_the_others_run(told, tmp_path,
     gust = next(
         i for i, one in enumerate(told) if one[0] == '/journal' and '"kind": "wind"' in one[3].data
     )
-    assert main([str(bag(tmp_path / 'bag', told[:gust] + told[gust + 1 :]))]) == 1
+    after = gust + 1
+    assert main([str(bag(tmp_path / 'bag', told[:gust] + told[after:]))]) == 1
     first, *others = lines(capsys.readouterr())
     assert first.startswith('shot 1 (red): journal entries 2 to 2 are missing')
     assert all(line.endswith('identical') for line in others)

@@ -29,7 +29,7 @@ MPH, RPM = 0.44704, 2.0 * pi / 60.0
 
 
 def launch_of(line):
-    """The launch that a line gives."""
+    """Return the launch that a line gives."""
     return shoot.parsed(line.split())[1]
 
 

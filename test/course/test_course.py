@@ -74,7 +74,7 @@ def complaint(write):
             load_course(path)
         said = str(caught.value)
         assert said.startswith(f'{path}: ') and said.isprintable() and len(said) <= 300
-        return said[len(f'{path}: ') :]
+        return said.removeprefix(f'{path}: ')
 
     return complaint
 
@@ -108,8 +108,10 @@ effects: [gravity, drag]
 ball: {mass: 0.05, friction: 0.1}
 zones: []
 ground:
-  - {shape: plane, point: [0, 0, 1], normal: [0, 3, 4], material: sand, cut: [[[9, 1], [11, 1], [10, 2]]]}
-  - {shape: patch, center: [1, 2, 3], heading: 0.5, length: 4, width: 5, material: tee, one_sided: true}
+  - {shape: plane, point: [0, 0, 1], normal: [0, 3, 4], material: sand,
+     cut: [[[9, 1], [11, 1], [10, 2]]]}
+  - {shape: patch, center: [1, 2, 3], heading: 0.5, length: 4, width: 5, material: tee,
+     one_sided: true}
 """)
     assert (
         course.name == 'Practice hole' and course.tee == (1.0, 2.0) and course.hole == (15.0, 3.0)
@@ -131,6 +133,16 @@ ground:
     'line, field, value',
     [
         ('air: {altitude: 1600}', 'air', standard_atmosphere(1600)),
+        (
+            'air: {altitude: 1600, temperature: 303}',
+            'air',
+            Air(303.0, standard_atmosphere(1600).pressure, 0.0),
+        ),
+        (
+            'air: {altitude: -100, temperature: 310, relative_humidity: 1}',
+            'air',
+            Air(310.0, standard_atmosphere(-100).pressure, 1.0),
+        ),
         ('wind_profile: {law: uniform}', 'wind_profile', UniformProfile()),
         ('wind_profile: {law: log}', 'wind_profile', LogProfile()),
         ('wind_profile: {law: log, roughness: 1e-3}', 'wind_profile', LogProfile(0.001)),
@@ -324,6 +336,14 @@ obstacles:
         ),
         ('air: {relative_humidity: 50}', 'air.relative_humidity 50 must be a number from 0 to 1'),
         ('air: {altitude: 1600, pressure: 1}', "air: key 'pressure' is unknown; known: altitude"),
+        (
+            'air: {altitude: 1600, temperature: 30}',
+            'air.temperature 30 must be a number from 150 to 400',
+        ),
+        (
+            'air: {altitude: 11000, temperature: 400, relative_humidity: 1}',
+            'must be more than that of the vapour',
+        ),
         ('air: {altitude: 20000}', 'air.altitude 20000 must be a number from -1000 to 11000'),
         (
             'air: {temprature: 280}',
@@ -449,7 +469,8 @@ def test_a_wrong_line_is_named(complaint, line, said):
         ),
         (
             '{a: {like: b}, b: {like: c}, c: {like: a}}',
-            "materials.c.like 'a' leads back to itself: a -> b -> c -> a; a material may not be like itself",
+            "materials.c.like 'a' leads back to itself: a -> b -> c -> a; "
+            'a material may not be like itself',
         ),
         ('{a: {like: b}, b: {like: c}, c: {like: b}}', 'leads back to itself: a -> b -> c -> b;'),
         (
@@ -472,7 +493,8 @@ def test_a_wrong_line_is_named(complaint, line, said):
         ),
         (
             '{a: {restitution: {law: pener}}}',
-            "materials.a.restitution.law 'pener' is unknown; known: penner, quadratic; did you mean 'penner'?",
+            "materials.a.restitution.law 'pener' is unknown; known: penner, quadratic; "
+            "did you mean 'penner'?",
         ),
         ('{a: {restitution: {e0: 1}}}', "materials.a.restitution: key 'law' is missing"),
         (
@@ -514,7 +536,8 @@ def test_a_wrong_material_is_named(complaint, section, said):
         ),
         (
             '{shape: plan, material: rough}',
-            "ground[0].shape 'plan' is unknown; known: heightmap, mesh, patch, plane; did you mean 'plane'?",
+            "ground[0].shape 'plan' is unknown; known: heightmap, mesh, patch, plane; "
+            "did you mean 'plane'?",
         ),
         (
             '{shape: mesh, material: rough}',
@@ -546,7 +569,8 @@ def test_a_wrong_material_is_named(complaint, section, said):
         ),
         (
             '{shape: plane, material: rough, normal: [1, 0, 0], cut: [[[0, 0], [1, 0], [1, 1]]]}',
-            'ground[0].cut [[[0, 0], [1, 0], [1, 1]]] must be left out: seen from above, this shape is a line',
+            'ground[0].cut [[[0, 0], [1, 0], [1, 1]]] must be left out: '
+            'seen from above, this shape is a line',
         ),
         (
             '{shape: patch, material: rough, center: [0, 0, 0], length: 3}',
@@ -630,7 +654,7 @@ def test_a_missing_file_and_a_folder_are_named(tmp_path):
 
 @pytest.fixture
 def special(tmp_path):
-    """What is no file: by name, what it is, and its path."""
+    """Return what is no file: by name, what it is, and its path."""
     os.mkfifo(tmp_path / 'fifo')
     for name in ('fifo.yaml', 'fifo.stl', 'fifo.npy'):
         (tmp_path / name).symlink_to(tmp_path / 'fifo')
@@ -719,7 +743,8 @@ bounds: [[-20, -40], [200, -40], [200, 40]]
 air: {temperature: 298.15, pressure: 101325, relative_humidity: 0.5}
 wind_profile: {law: log, roughness: 0.01}
 effects: [drag]
-materials: {new: {like: green, stimp: 12, restitution: {law: quadratic, e0: 0.5}, color: [0, 1, 0]}}
+materials:
+  new: {like: green, stimp: 12, restitution: {law: quadratic, e0: 0.5}, color: [0, 1, 0]}
 ball: {mass: 0.05}
 ground:
   - {shape: plane, normal: [0, 0, 1], material: rough, cut: [[[9, 1], [11, 1], [10, 2]]]}
@@ -813,7 +838,7 @@ def test_every_shipped_course_loads_and_has_a_hole_on_a_green(name):
 
 
 def frame(patch):
-    """Unit vectors of a patch: normal, along, across."""
+    """Return unit vectors of a patch: normal, along, across."""
     n = np.array(patch.normal)
     ahead = np.array([cos(patch.heading), sin(patch.heading), 0])
     along = ahead - ahead @ n * n
@@ -885,7 +910,7 @@ def outlines(course):
 
 
 def steps(course, polygon, apart=1e-7):
-    """Places along the sides of `polygon` and the heights `apart` to the left and right of them."""
+    """Places along the sides of `polygon`, and the heights `apart` to their left and right."""
     for a, b in zip(np.array(polygon), np.roll(polygon, -1, axis=0)):
         way = b - a
         places = a + np.linspace(0.0005, 0.9995, 1999)[:, None] * way

@@ -199,8 +199,8 @@ def test_a_zone_may_be_a_pair_as_ever(load):
 def test_a_wrong_cut_is_named(load, cut, said):
     with pytest.raises(CourseError) as caught:
         load(
-            'format: 1\nground: [{shape: plane, material: rough}]\nzones: [{material: green, polygon: [[0,'
-            f' 0], [9, 0], [9, 9]], cut: {cut}}}]\n'
+            'format: 1\nground: [{shape: plane, material: rough}]\n'
+            f'zones: [{{material: green, polygon: [[0, 0], [9, 0], [9, 9]], cut: {cut}}}]\n'
         )
     assert said in str(caught.value)
 
@@ -211,7 +211,8 @@ def test_a_round_is_its_courses_in_order_and_a_course_is_a_round_of_one(tmp_path
     (tmp_path / 'second.yaml').write_text(POND)
     path = tmp_path / 'round.yaml'
     path.write_text(
-        'format: 1\nname: a round\nround: [holes/first.yaml, second.yaml, links, holes/first.yaml]\n'
+        'format: 1\nname: a round\n'
+        'round: [holes/first.yaml, second.yaml, links, holes/first.yaml]\n'
     )
     played = load_round(path)
     assert [course.name for course in played] == [

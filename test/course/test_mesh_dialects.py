@@ -32,24 +32,13 @@ CASES = Path(__file__).parents[1] / 'data' / 'cases'
 SQUARE = 'v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\n'
 L_SHAPE = [(0, 0), (10, 0), (10, 4), (4, 4), (4, 10), (0, 10)]
 FRAME = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0), (3, 3), (3, 7), (7, 7), (7, 3), (3, 3)]
+# fmt: off
 TWO_HOLES = [
-    (0, 0),
-    (10, 0),
-    (10, 10),
-    (0, 10),
-    (0, 0),
-    (1, 1),
-    (1, 4),
-    (4, 4),
-    (4, 1),
-    (1, 1),
-    (0, 0),
-    (5, 1),
-    (5, 4),
-    (9, 4),
-    (9, 1),
-    (5, 1),
+    (0, 0), (10, 0), (10, 10), (0, 10),
+    (0, 0), (1, 1), (1, 4), (4, 4), (4, 1), (1, 1),
+    (0, 0), (5, 1), (5, 4), (9, 4), (9, 1), (5, 1),
 ]
+# fmt: on
 STAR = [
     (r * cos(a), r * sin(a)) for k in range(10) for r, a in [((5.0, 2.0)[k % 2], 2 * pi * k / 10)]
 ]
@@ -247,7 +236,8 @@ def test_a_concave_face_of_64_m2_is_one_in_every_dialect_of_ply(read, numbers, f
 
 def test_strips_of_ply_are_triangles(read):
     strip = (
-        'ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n'
+        'ply\nformat ascii 1.0\nelement vertex 6\n'
+        'property float x\nproperty float y\nproperty float z\n'
         'element tristrips 1\nproperty list int int vertex_indices\nend_header\n'
         '0 0 0\n4 0 0\n0 4 0\n4 4 0\n0 8 0\n4 8 0\n11 0 1 2 3 -1 2 3 4 5 -1 -1\n'
     )
@@ -385,10 +375,11 @@ def test_what_cannot_be_read_is_told_in_one_line(read, name, raw, said):
 
 
 def write_course(folder, mesh):
-    """A course of one mesh, with its entries of the course file."""
+    """Write a course of one mesh, with its entries of the course file."""
     path = folder / 'links.yaml'
     path.write_text(
-        f'format: 1\ntee: [0, 0]\nhole: [10, 0]\nground:\n  - {{shape: mesh, material: green, {mesh}}}\n'
+        'format: 1\ntee: [0, 0]\nhole: [10, 0]\nground:\n'
+        f'  - {{shape: mesh, material: green, {mesh}}}\n'
     )
     return path
 

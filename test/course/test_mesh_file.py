@@ -38,7 +38,7 @@ def binary_stl(corners):
 
 
 def text_stl(corners):
-    """The same in text."""
+    """Return the same in text."""
     facets = [
         ' facet normal 0 0 0\n  outer loop\n'
         + ''.join(f'   vertex {x} {y} {z}\n' for x, y, z in three)

@@ -25,7 +25,7 @@ import pytest
 
 
 def run_copy(site_packages, environment=None):
-    """What `share('config')` says in a copy of the package that lies in `site_packages`."""
+    """Run `share('config')` in a copy of the package that lies in `site_packages`."""
     package = site_packages / 'golf_sim_ros'
     (package / 'course').mkdir(parents=True)
     shutil.copy(module.__file__, package / 'course')

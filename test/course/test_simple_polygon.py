@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Polygons that cross or touch themselves are found, and no others: as comparing all sides with all does."""
+"""Polygons that cross or touch themselves are found, no others: as comparing all sides does."""
 
 from math import cos, pi, sin
 
@@ -32,7 +32,7 @@ def compared(corners):
 
 
 def star(n, spike=None):
-    """A polygon of `n` corners, with the one of number `spike` pulled through the other side."""
+    """Make a polygon of `n` corners, with that of number `spike` pulled through the other side."""
     corners = [
         ((10 + k % 2) * cos(2 * pi * k / n), (10 + k % 2) * sin(2 * pi * k / n)) for k in range(n)
     ]
@@ -43,7 +43,7 @@ def star(n, spike=None):
 
 
 def comb(n):
-    """A comb with teeth along x: every side is beside every other."""
+    """Make a comb with teeth along x: every side is beside every other."""
     teeth = tuple((100.0 * (k % 4 in (1, 2)), float(k // 2)) for k in range(2 * n))
     return (*teeth, (-1.0, float(n)), (-1.0, 0.0))
 

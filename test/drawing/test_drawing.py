@@ -32,7 +32,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip('matplotlib')
-from golf_sim_ros import drawing  # noqa: E402
+from golf_sim_ros import drawing  # noqa: E402, I100
 from golf_sim_ros.drawing import window  # noqa: E402
 from golf_sim_ros.drawing.shots import detailed  # noqa: E402
 from matplotlib.colors import to_rgb  # noqa: E402
@@ -46,7 +46,7 @@ RED, BLUE = (0.9, 0.1, 0.1), (0.1, 0.1, 0.9)
 
 
 def shot(strike=DRIVE, number=1, course=COURSE, wind=(0.0, 0.0, 0.0)):
-    """A simulated shot, to be drawn."""
+    """Simulate a shot, to be drawn."""
     told = drawing.drawn(simulate(course, strike, wind), wind)
     return told._replace(result=told.result._replace(shot=number))
 
@@ -69,7 +69,7 @@ def eighteen():
 
 
 def axes(figure, label):
-    """The part of a picture called `label`."""
+    """Find the part of a picture called `label`."""
     return next(part for part in figure.axes if part.get_label() == label)
 
 

@@ -32,7 +32,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(scope='session', autouse=True)
 def domain(tmp_path_factory):
-    """A ROS domain id that no other test session on this machine has; set for all processes."""
+    """Set a ROS domain id that no other test session on this machine has, for all processes."""
     claim, number = claimed_domain()
     patch = pytest.MonkeyPatch()
     patch.setenv('ROS_DOMAIN_ID', str(number))
@@ -49,7 +49,10 @@ def domain(tmp_path_factory):
 
 
 def claimed_domain():
-    """A socket and a domain id, ours while the socket is bound: the sessions of a machine share ports."""
+    """Find a domain id that is free: a socket and the id, which is ours while the socket is bound.
+
+    The sessions of a machine share its ports.
+    """
     for number in range(1, 102):
         claim = socket.socket()
         try:
@@ -62,7 +65,10 @@ def claimed_domain():
 
 @pytest.fixture(scope='module')
 def start(domain):
-    """`start('sim_node', '--ros-args', ...)` gives a running `Process`, stopped when the module ends."""
+    """Give a function that starts nodes, each stopped when the module ends.
+
+    ``start('sim_node', '--ros-args', ...)`` gives a running `Process`.
+    """
     processes = []
 
     def start(module, *arguments, environment=None):
@@ -77,13 +83,13 @@ def start(domain):
 
 @pytest.fixture
 def client(make_client):
-    """A `Client` in the root namespace."""
+    """Make a `Client` in the root namespace."""
     return make_client()
 
 
 @pytest.fixture
 def make_client(domain):
-    """`make_client(namespace)` gives a `Client`, closed after the test."""
+    """Give a function of a namespace that makes a `Client`, closed after the test."""
     clients = []
 
     def make(namespace=''):
@@ -97,7 +103,10 @@ def make_client(domain):
 
 @pytest.fixture
 def make_golfer(domain):
-    """`make_golfer(namespace, ball)` gives a `Golfer` once the sim there answers, closed after the test."""
+    """Give a function of a namespace and a ball that makes a `Golfer`, closed after the test.
+
+    It returns once the sim there answers.
+    """
     golfers = []
 
     def make(namespace='', ball='ball'):

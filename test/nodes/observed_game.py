@@ -116,7 +116,7 @@ class ObservedGame:
         raise AssertionError('the balls go on and on')
 
     def differences(self):
-        """What differs of each recorded shot when it is run again: None where nothing does."""
+        """Run each recorded shot again: what differs, None where nothing does."""
         recording = SimpleNamespace(
             journal=self.entries,
             config=self.entries[0],

@@ -39,7 +39,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 def wait_until(condition, what='it happened', seconds=DEADLINE):
-    """What `condition()` returns once that is true; fails with `what` if it never is."""
+    """Wait until `condition()` is true and return it; fails with `what` if it never is."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
         found = condition()
@@ -75,7 +75,7 @@ class Process:
         return ''.join(self.lines)
 
     def wait_for(self, text, seconds=DEADLINE):
-        """The first line of output that contains `text`."""
+        """Wait for the first line of output that contains `text`."""
         wait_until(
             lambda: text in self.output or self.popen.poll() is not None,
             f'{text!r} in the output:\n{self.output}',
@@ -125,20 +125,20 @@ class Client:
         self.thread.start()
 
     def listen(self, kind, topic, qos=10):
-        """A list of all messages on `topic` from now on, in order of arrival."""
+        """Return a list of all messages on `topic` from now on, in order of arrival."""
         heard = []
         self.node.create_subscription(kind, topic, heard.append, qos)
         return heard
 
     def publisher(self, kind, topic, qos=10, wait=True):
-        """A publisher on `topic`, after somebody subscribed to it (unless `wait` is false)."""
+        """Publish on `topic`, after somebody subscribed to it (unless `wait` is false)."""
         publisher = self.node.create_publisher(kind, topic, qos)
         if wait:
             wait_until(publisher.get_subscription_count, f'somebody subscribed to {topic}')
         return publisher
 
     def call(self, kind, service, request):
-        """The response of `service` to `request`, which is sent again while no answer comes.
+        """Return the response of `service` to `request`, sent again while no answer comes.
 
         A service may be found before it has found who asks: then its answer is lost.
         """
@@ -197,7 +197,7 @@ class Golfer(Client):
         ]
 
     def play(self, velocity, spin=(0.0, 0.0, 0.0)):
-        """The result of a strike that is like no other before."""
+        """Wait for the result of a strike that is like no other before."""
         self.strike(velocity, spin)
         return wait_until(
             lambda: self.results_of(velocity, spin), f'the result of {velocity} came'
@@ -208,7 +208,10 @@ class Golfer(Client):
         return [json.loads(message.data) for message in self.collisions]
 
     def heartbeat(self):
-        """Wait until a new subscription got the pose: all that the sim published before has arrived."""
+        """Wait until a new subscription got the pose.
+
+        All that the sim published before has arrived then.
+        """
         seen, heard = len(self.poses), []
         # It stays until the node goes: rclpy's executor may stumble over one that is destroyed as
         # it waits.
@@ -223,7 +226,7 @@ class Golfer(Client):
 
 
 def seconds(stamp):
-    """A stamp as a number [s]."""
+    """Return a stamp as a number [s]."""
     return stamp.sec + 1e-9 * stamp.nanosec
 
 

@@ -47,7 +47,7 @@ BAD_PLACES = {
 
 @pytest.fixture(scope='module')
 def sim(start):
-    """The sim that gets bad input."""
+    """Start the sim that gets bad input."""
     process = start('sim_node', *parameters('/bad', real_time_factor=4.0))
     process.wait_for(READY)
     return process
@@ -55,7 +55,7 @@ def sim(start):
 
 @pytest.fixture
 def golfer(sim, make_golfer):
-    """A golfer at the tee of the sim that gets bad input."""
+    """Put a golfer at the tee of the sim that gets bad input."""
     golfer = make_golfer('/bad')
     golfer.reset()
     return golfer
@@ -63,7 +63,7 @@ def golfer(sim, make_golfer):
 
 @pytest.fixture(scope='module')
 def expected(start):
-    """What the good shot gives in a sim to which nothing bad ever came."""
+    """Play the good shot in a sim to which nothing bad ever came."""
     start('sim_node', *parameters('/good', real_time_factor=4.0)).wait_for(READY)
     golfer = Golfer('/good')
     try:

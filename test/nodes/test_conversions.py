@@ -22,28 +22,13 @@ from golf_sim_ros.physics import Collision, Result
 from golf_sim_ros.recording.json_format import collision_text, rejection_text, result_text
 import pytest
 
+# fmt: off
 RESULT = Result(
-    7,
-    'ball',
-    'at_rest',
-    251.23456,
-    -2.00001,
-    268.04999,
-    3.49999,
-    31.0,
-    6.12345678,
-    14.0,
-    112.4,
-    'fairway',
-    25.0,
-    0.7,
-    4,
-    123.456789012,
-    (268.0, 3.5, -0.00001),
-    (73.35, 0.0, 14.1),
-    (0.0, -281.28111, 0.0),
-    '',
+    7, 'ball', 'at_rest', 251.23456, -2.00001, 268.04999, 3.49999, 31.0, 6.12345678, 14.0, 112.4,
+    'fairway', 25.0, 0.7, 4, 123.456789012, (268.0, 3.5, -0.00001), (73.35, 0.0, 14.1),
+    (0.0, -281.28111, 0.0), '',
 )
+# fmt: on
 
 
 def test_a_result_has_its_keys_in_order_and_is_rounded_for_people():

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A course or a parameter that cannot be used ends the start with one line that says what to do."""
+"""A course or a parameter that cannot be used ends the start with one line of what to do."""
 
 from processes import parameters
 import pytest
@@ -41,7 +41,7 @@ COURSES = {
 
 
 def ended(start, *arguments):
-    """The only line that a sim wrote which ended with code 1, but for one that it has to compile."""
+    """Find the only line of a sim that ended with code 1, but for one that it has to compile."""
     process = start('sim_node', *arguments)
     assert process.wait() == 1, process.output
     (line,) = [line for line in process.lines if 'waiting for the physics' not in line]

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A short run of tools/fuzz.py: malformed and extreme messages, services and parameters over DDS."""
+"""A short run of tools/fuzz.py: malformed and extreme messages, services, parameters over DDS."""
 
 from pathlib import Path
 import sys

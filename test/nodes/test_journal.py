@@ -17,16 +17,15 @@
 import signal
 
 from geometry_msgs.msg import PointStamped, Vector3Stamped
+from golf_sim_ros.cli.resimulate import main
+from golf_sim_ros.recording.bag import read_bag
+from golf_sim_ros.recording.journal import opened
+from processes import LASTING, parameters, place, READY, wait_until
 import pytest
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
 
 pytest.importorskip('rosbags')
-
-from golf_sim_ros.cli.resimulate import main  # noqa: E402
-from golf_sim_ros.recording.bag import read_bag  # noqa: E402
-from golf_sim_ros.recording.journal import opened  # noqa: E402
-from processes import LASTING, parameters, place, READY, wait_until  # noqa: E402
 
 SHOTS = (
     ((12.0, 1.0, 9.0), (0.0, -150.0, 20.0)),
@@ -134,7 +133,7 @@ def topics(path):
 
 @pytest.fixture(scope='module')
 def sim(start):
-    """A sim whose journal is read."""
+    """Start a sim whose journal is read."""
     process = start('sim_node', *parameters('/journal', real_time_factor=0.0))
     process.wait_for(READY)
     return process

@@ -73,7 +73,10 @@ class Launch(Process):
 
 @pytest.fixture
 def launched(domain, make_client):
-    """`launched('rate:=100', ...)` gives what the nodes have got: the parameters of each, by its name."""
+    """Give a function that launches: the parameters that each node has got, by its name.
+
+    It is called like ``launched('rate:=100', ...)``.
+    """
     pytest.importorskip('ament_index_python')
     running = []
 
@@ -187,7 +190,7 @@ def written(path, **nodes):
 
 @pytest.fixture
 def file(tmp_path):
-    """A params file that changes every parameter of both nodes."""
+    """Write a params file that changes every parameter of both nodes."""
     return written(tmp_path / 'params.yaml', golf_sim=OF_SIM, wind_generator=OF_WIND)
 
 
@@ -247,7 +250,7 @@ def test_log_level_is_that_of_both_nodes(launched):
 
 
 def nothing(*words):
-    """The only error of a launch that starts nothing."""
+    """Find the only error of a launch that starts nothing."""
     process = Launch(*words)
     assert process.wait() == 1, process.output
     assert 'process started' not in process.output
@@ -275,7 +278,10 @@ while :; do sleep 0.1; done
 
 @pytest.fixture
 def heard_by_rviz(tmp_path, monkeypatch):
-    """File with what a program in place of rviz2 has got: all files among its arguments, then these."""
+    """File with what a program in place of rviz2 has got.
+
+    All files among its arguments, then these.
+    """
     heard, program = tmp_path / 'heard', tmp_path / 'lib' / 'rviz2' / 'rviz2'
     index = tmp_path / 'share' / 'ament_index' / 'resource_index' / 'packages'
     for folder in (index, program.parent):

@@ -55,7 +55,7 @@ PIT = ((20.0, -5.0), (30.0, -5.0), (30.0, 5.0), (20.0, 5.0))
 
 @pytest.fixture(scope='module')
 def course():
-    """The shipped course."""
+    """Load the shipped course."""
     return load_course('golf_without_friends')
 
 
@@ -69,6 +69,11 @@ def total(pieces):
     return sum(area(piece) for piece in pieces)
 
 
+def threes(corners):
+    """Corners of triangles, three by three."""
+    return list(zip(corners[::3], corners[1::3], corners[2::3]))
+
+
 def surfaces(array):
     """For each colour the triangles, three (x, y, z) each, that show ground in it."""
     found = {}
@@ -78,7 +83,7 @@ def surfaces(array):
             color = tuple(
                 round(part, 3) for part in (marker.color.r, marker.color.g, marker.color.b)
             )
-            found[color] = [corners[i : i + 3] for i in range(0, len(corners), 3)]
+            found[color] = threes(corners)
     return found
 
 
@@ -201,7 +206,7 @@ def test_water_is_blue_over_its_polygon_at_its_level_and_what_is_below_shines_th
     array = course_markers(course, 'course')
     (made,) = (marker for marker in array.markers if marker.ns == 'water')
     corners = [(point.x, point.y, point.z) for point in made.points]
-    pieces = [corners[i : i + 3] for i in range(0, len(corners), 3)]
+    pieces = threes(corners)
     assert total(pieces) == pytest.approx(200.0) and 0.3 < made.color.a < 0.9
     assert made.color.b > max(made.color.r, made.color.g)
     assert {(x > 15.0, z) for x, _, z in corners} == {(True, -0.2), (False, 0.5)}
@@ -296,7 +301,7 @@ def test_the_play_is_a_handful_of_markers_with_every_ball_where_it_is(world):
     scene = Scene(world)
     scene.trails['red'].add((1.0, 2.0, 3.0))
     array = scene.markers(header('course', 0, 1.5), world, (0.0, 3.0, 0.0))
-    assert len(array.markers) == 2 + 2 * len(world.names)
+    assert len(array.markers) == 4 + 3 * len(world.names)
     balls = [marker for marker in array.markers if marker.ns == 'ball']
     for name, ball in zip(world.names, balls):
         place = ball.pose.position

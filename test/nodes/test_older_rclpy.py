@@ -34,7 +34,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 @pytest.fixture
 def start_as_humble(start):
-    """`start` of a node whose rclpy has no more than that of Humble, but what is named in `kept`."""
+    """Start a node whose rclpy has no more than that of Humble, but what is named in `kept`."""
 
     def begin(*arguments, kept=''):
         path = os.pathsep.join([str(FOLDER), os.environ['PYTHONPATH']])

@@ -33,7 +33,7 @@ water:
 
 @pytest.fixture
 def sim(start, tmp_path):
-    """A sim in its own namespace, on a course with a pond in front of the tee."""
+    """Start a sim in its own namespace, on a course with a pond in front of the tee."""
     file = tmp_path / 'pond.yaml'
     file.write_text(LINKS)
     process = start('sim_node', *parameters('/wet', course=file))

@@ -25,7 +25,7 @@ from std_srvs.srv import SetBool
 
 @pytest.fixture
 def sim_in(start):
-    """`sim_in('/ns')` gives a sim that is ready there."""
+    """Give a function of a namespace that starts a sim there, and waits until it is ready."""
 
     def make(namespace, **more):
         sim = start('sim_node', *parameters(namespace, **more))
@@ -36,18 +36,19 @@ def sim_in(start):
 
 
 def shooting(start, namespace, *more):
-    """A `shoot` of a drive in `namespace`."""
+    """Start a `shoot` of a drive in `namespace`."""
     return start('cli.shoot', 'driver', '--timeout', '60', '--namespace', namespace, *more)
 
 
 def struck(client):
-    """A list that fills with the journal's strikes."""
+    """Listen to the journal: a function that gives its strikes so far."""
     entries = client.listen(String, 'journal', 100)
-    return lambda: [
-        entry
-        for entry in map(lambda message: json.loads(message.data), entries)
-        if entry['kind'] == 'strike'
-    ]
+
+    def strikes():
+        told = (json.loads(message.data) for message in entries)
+        return [entry for entry in told if entry['kind'] == 'strike']
+
+    return strikes
 
 
 def test_a_sim_tells_its_heartbeat_and_a_stopped_one_does_not(sim_in, make_client):

@@ -21,7 +21,7 @@ import pytest
 
 @pytest.fixture
 def clock(monkeypatch):
-    """The wall clock [s], as a list of one that tests set."""
+    """Replace the wall clock [s]: by a list of one that tests set."""
     now = [100.0]
     monkeypatch.setattr(real_time, 'monotonic', lambda: now[0])
     return now

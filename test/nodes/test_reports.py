@@ -26,7 +26,7 @@ from std_srvs.srv import SetBool
 
 
 def diagnosed(diagnostics, name, key):
-    """What the last diagnostics of the node `name` say of `key`; '' before they came."""
+    """Find what the last diagnostics of the node `name` say of `key`; '' before they came."""
     found = [
         status for message in list(diagnostics) for status in message.status if status.name == name
     ]

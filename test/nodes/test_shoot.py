@@ -30,7 +30,7 @@ MPH, YARD = 0.44704, 0.9144
 
 
 class ScriptedSim(Client):
-    """Offers the topics of a sim and answers every strike with what `answer(number)` changes in it."""
+    """Offers the topics of a sim, and answers strikes with what `answer(number)` changes in it."""
 
     def __init__(self, namespace, ball='ball', hole=None, course=True):
         super().__init__(namespace)
@@ -94,7 +94,7 @@ class ScriptedSim(Client):
 
 @pytest.fixture
 def scripted(domain):
-    """`scripted(namespace, ...)` gives a ScriptedSim, closed after the test."""
+    """Give a function of a namespace that makes a ScriptedSim, closed after the test."""
     sims = []
 
     def make(namespace, **how):
@@ -108,7 +108,10 @@ def scripted(domain):
 
 @pytest.fixture
 def shoot(start):
-    """`shoot('driver --print')` gives exit code and output; it looks for a sim for long."""
+    """Give a function that runs `shoot` with a line: exit code and output.
+
+    It looks for a sim for long.
+    """
 
     def run(line):
         process = start('cli.shoot', '--timeout', '60', *line.split())
@@ -328,7 +331,7 @@ def test_aiming_with_a_ball_of_another_name_exits_with_one_and_a_hint(shoot, scr
 
 @pytest.fixture(scope='module')
 def real_sim(start):
-    """The real sim, in the namespace /real."""
+    """Start the real sim, in the namespace /real."""
     process = start('sim_node', *parameters('/real', real_time_factor=8.0))
     process.wait_for('ready')
     return process
@@ -336,7 +339,7 @@ def real_sim(start):
 
 @pytest.fixture
 def golfer(real_sim, make_golfer):
-    """A client beside the real sim, whose ball is on the tee."""
+    """Make a client beside the real sim, whose ball is on the tee."""
     golfer = make_golfer('/real')
     golfer.reset()
     return golfer

@@ -38,7 +38,7 @@ PERIOD, TICK = 1 / 50, 1 / 250  # s, by default
 
 @pytest.fixture(scope='module')
 def sim(start):
-    """A sim with default parameters in the root namespace."""
+    """Start a sim with default parameters in the root namespace."""
     process = start('sim_node')
     process.wait_for(READY)
     return process
@@ -46,7 +46,7 @@ def sim(start):
 
 @pytest.fixture
 def golfer(sim, make_golfer):
-    """A golfer whose ball is on the tee."""
+    """Make a golfer whose ball is on the tee."""
     golfer = make_golfer()
     golfer.reset()
     return golfer

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The compiled engine takes over from plain Python by itself, where the play calls for it, over DDS."""
+"""The compiled engine takes over from plain Python by itself where play calls for it, over DDS."""
 
 import signal
 
@@ -28,7 +28,7 @@ needs_numba = pytest.mark.skipif(bool(missing()), reason=missing() or 'numba is 
 
 
 def values(messages):
-    """What the last of the diagnostics said of the engine."""
+    """Find what the last of the diagnostics said of the engine."""
     told = {value.key: value.value for value in messages[-1].status[0].values}
     return told['engine'], told['engine, why']
 

@@ -29,7 +29,7 @@ DRIVE, DRIVE_SPIN = (20.0, 0.5, 11.0), (0.0, -280.0, 15.0)
 
 @pytest.fixture(scope='module')
 def hasty(start):
-    """A sim that plays as fast as it can and publishes its time."""
+    """Start a sim that plays as fast as it can and publishes its time."""
     process = start('sim_node', *parameters('/hasty', real_time_factor=0.0, publish_clock='true'))
     process.wait_for(READY)
     return process
@@ -37,7 +37,7 @@ def hasty(start):
 
 @pytest.fixture(scope='module')
 def steady(start):
-    """A sim in step with the clock."""
+    """Start a sim in step with the clock."""
     process = start('sim_node', *parameters('/steady'))
     process.wait_for(READY)
     return process
@@ -45,7 +45,7 @@ def steady(start):
 
 @pytest.fixture
 def golfer(hasty, make_golfer):
-    """A golfer at the tee of the hasty sim."""
+    """Put a golfer at the tee of the hasty sim."""
     golfer = make_golfer('/hasty')
     golfer.reset()
     return golfer
@@ -115,7 +115,7 @@ def test_a_wind_node_on_simulated_time_draws_a_gust_every_ten_simulated_seconds(
 
 
 def set_factor(client, namespace, factor):
-    """The answer of the sim to a new real-time factor."""
+    """Ask the sim for a new real-time factor: its answer."""
     value = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=factor)
     request = SetParameters.Request(parameters=[Parameter(name='real_time_factor', value=value)])
     return client.call(SetParameters, f'{namespace}/golf_sim/set_parameters', request).results[0]

@@ -55,19 +55,19 @@ COURSE_LINKS = ROWS['sim_node course:=links']
 
 
 def rows(pattern):
-    """What is typed in the rows whose answer matches `pattern`."""
+    """Return what is typed in the rows whose answer matches `pattern`."""
     found = [typed for typed, answer in ROWS.items() if re.match(pattern, answer)]
     return pytest.mark.parametrize('typed', found)
 
 
 def quoted(answer):
-    """What the program writes, according to an answer."""
+    """Return what the program writes, according to an answer."""
     return re.search(r'`(.*)`', COURSE_LINKS if answer.endswith('the same') else answer).group(1)
 
 
 @pytest.fixture
 def began(start):
-    """`began('sim_node', ...)` gives the process of a node once it runs; it ends with the test."""
+    """Give a function that starts a node: its process once it runs; it ends with the test."""
     processes = []
 
     def begin(program, *arguments):
@@ -157,7 +157,7 @@ def test_ros2_param_set_takes_what_is_typed_or_says_why_not(live, make_client, t
 
 
 def set_parameter(client, node, name, value):
-    """Result of setting one parameter as `ros2 param set` does."""
+    """Set one parameter as `ros2 param set` does: the result."""
     parameter = Parameter(name).to_parameter_msg()
     parameter.value = value
     request = SetParametersAtomically.Request(parameters=[parameter])

@@ -40,7 +40,7 @@ class SimulatedTime:
         self.heard = client.listen(Vector3Stamped, f'{namespace}/wind', LATCHED)
 
     def wind_at(self, seconds):
-        """The wind (x, y, z) published at a time, which is set as often as it takes to arrive."""
+        """Set the time, as often as it takes to arrive: the wind (x, y, z) published at it."""
         now = Time(seconds=seconds)
 
         def answer():
@@ -66,7 +66,7 @@ class SimulatedTime:
 
 @pytest.fixture
 def simulated_time(start, client):
-    """`simulated_time(namespace, seed=...)` starts a wind node on /clock."""
+    """Give a function of a namespace and a seed that starts a wind node on /clock."""
 
     def begin(namespace, **values):
         start('wind_node', *parameters(namespace, use_sim_time='true', **values))
@@ -143,7 +143,7 @@ def test_every_parameter_of_the_gusts_does_what_the_process_says(simulated_time)
 
 @pytest.fixture(scope='module')
 def wind_node(start):
-    """A wind node on the wall clock, in the namespace /wall."""
+    """Start a wind node on the wall clock, in the namespace /wall."""
     return start('wind_node', *parameters('/wall'))
 
 
@@ -204,7 +204,7 @@ def test_every_parameter_is_described_and_every_number_has_a_range(wind_node, cl
 
 
 def set_parameter(client, name, value):
-    """The answer of the node in /wall to a new value."""
+    """Ask the node in /wall for a new value: its answer."""
     request = SetParameters.Request(parameters=[Parameter(name, value=value).to_parameter_msg()])
     return client.call(SetParameters, '/wall/wind_generator/set_parameters', request).results[0]
 

@@ -41,9 +41,9 @@ def slope(angle, material):
 
 
 def hilly(move=(0.0, 0.0, 0.0), turn=0.0):
-    """A fairway that falls and a green beyond, in rough.
+    """Make a fairway that falls and a green beyond, in rough.
 
-    Turned about the tee by `turn`, then moved.
+    All is turned about the tee by `turn`, then moved.
     """
 
     def turned(x, y, z):
@@ -64,7 +64,7 @@ def hilly(move=(0.0, 0.0, 0.0), turn=0.0):
 
 
 def down(angle):
-    """Unit vector down that slope."""
+    """Find the unit vector down that slope."""
     return np.array((cos(angle), 0.0, -sin(angle)))
 
 
@@ -80,7 +80,10 @@ DRIVE = launched(74.7, radians(10.9)), (0.0, -2686 * 2 * np.pi / 60, 0.0)
 
 
 def random_shots(n, seed):
-    """Velocities and spins of `n` shots: 5 to 90 m/s, 2 to 60 degrees high, to 1000 rad/s about any axis."""
+    """Velocities and spins of `n` shots: 5 to 90 m/s, 2 to 60 degrees high, any spin.
+
+    Spins are up to 1000 rad/s, about any axis.
+    """
     rng = np.random.default_rng(seed)
     velocities = launched(
         rng.uniform(5, 90, n),

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Hard cases that a line of YAML does not hold: rows and racks of balls, piles, the hole, curved ground.
+"""Hard cases that a line of YAML does not hold: rows and racks of balls, piles, hole, curves.
 
 Each is played at a preset and a tick and gives one figure, which must lie from `least` to `most`.
 """
@@ -133,7 +133,7 @@ MIRRORED = [0] + [1 + row * (row + 1) // 2 + row - k for row in range(5) for k i
 
 
 def broken(seed, accuracy, rate, look=None):
-    """World of a rack of 15, broken head-on, and its balls' places and velocities in order of the rack."""
+    """World of a rack of 15, broken head-on, and its balls' places and velocities in its order."""
     world = table(CLOTH, 16, accuracy, 0.9, 0.2)
     order = np.random.default_rng(seed).permutation(16)
     names = [world.names[i] for i in order]
@@ -217,7 +217,10 @@ def thrown(friction, cut, accuracy, rate):
 
 
 def follow(accuracy, rate):
-    """Error [m/s] of 2/7 and 5/7 of its speed, of a rolling ball that hits an equal one head-on."""
+    """Error [m/s] of 2/7 and 5/7 of its speed, of a rolling ball that hits one head-on.
+
+    The balls are equal.
+    """
     world = table(
         Material('grip', Restitution(0.0), 0.0, 0.3, 0.3, 0.0), ('cue', 'object'), accuracy
     )
@@ -278,7 +281,7 @@ def heaped(ground, count, accuracy, rate):
 
 
 def crammed(draws, accuracy, rate):
-    """Deepest [m] that balls of random towers which fall into a box get into each other, the floor or a wall.
+    """Deepest [m] that balls of random towers, fallen into a box, get into others, floor or walls.
 
     Some of them hit others that lean on each other already.
     """
@@ -329,7 +332,10 @@ def speed(world):
 
 
 def groove(angle, accuracy, rate):
-    """Speed [m/s] five seconds after a ball was let go over a groove of faces at `angle` degrees."""
+    """Speed [m/s] five seconds after a ball was let go over a groove of faces at `angle`.
+
+    `angle` is in degrees.
+    """
     a = radians(angle)
     sides = [
         Patch((side * cos(a), 0.0, sin(a)), (-side * sin(a), 0.0, cos(a)), 0.0, 2.0, 20.0, GRIP)
@@ -453,7 +459,10 @@ def holds_wrongly(accuracy, rate):
 
 
 def crest(share, accuracy, rate):
-    """1 if a ball flies that passes a crest at `share` of the speed at which gravity lets it go, else 0."""
+    """1 if a ball flies that passes a crest at `share` of a speed, else 0.
+
+    It is the speed at which gravity lets the ball go.
+    """
     curve, spacing = 2.0, 0.05
     x = np.arange(-1.0, 1.0 + 0.5 * spacing, spacing)
     heights = np.tile(np.sqrt(curve * curve - x * x), (len(x), 1))
@@ -471,7 +480,10 @@ SIDE = 6.0  # m from the middle of a floor to its sides
 
 
 def floor(seed=1, inner=100, up=(0.0, 0.0, 1.0)):
-    """Irregular triangles, twice as many as `inner` points and two, that make a square across `up`."""
+    """Irregular triangles that make a square across `up`.
+
+    They are twice as many as `inner` points, and two more.
+    """
     random = np.random.default_rng(seed)
     places, faces = (
         [(-SIDE, -SIDE), (SIDE, -SIDE), (SIDE, SIDE), (-SIDE, SIDE)],
@@ -510,7 +522,10 @@ def bumps(accuracy, rate):
 
 
 def strays(accuracy, rate):
-    """How far [m] balls on that floor end from where they end on a plane, and their heading [rad] is off."""
+    """How far [m] balls on that floor end from where they end on a plane.
+
+    And how far [rad] their heading is off.
+    """
     found = []
     for heading in HEADINGS:
         ends = []
@@ -530,7 +545,7 @@ def strays(accuracy, rate):
 
 
 def tilted(kind, accuracy, rate):
-    """How far [m] a ball on a tilted plane made of heights or triangles is from one on the plane."""
+    """How far [m] a ball on a tilted plane of heights or triangles is from one on the plane."""
     normal = np.array((-0.03, 0.02, 1.0)) / np.linalg.norm((-0.03, 0.02, 1.0))
     axis = np.linspace(-20.0, 20.0, 11)
     ground = (
@@ -564,7 +579,7 @@ def green(accuracy, slope=0.0, flagstick=False, **ball):
 
 
 def putt(world, speed_, aside, rate):
-    """Whether a ball is holed that rolls over the rim, `aside` of the middle, till it is 0.3 m off."""
+    """Whether a ball is holed that rolls over the rim, `aside` of the middle, till 0.3 m off."""
     normal = np.array(world.course.ground[1].normal)
     ahead = np.array((normal[2], 0.0, -normal[0]))
     place = np.array((-sqrt(HOLE**2 - aside**2) - SOON, aside, 0.0))
@@ -610,7 +625,7 @@ def on_the_bottom(slope, accuracy, rate):
 
 
 def wedged_in_the_hole(accuracy, rate):
-    """Speed [m/s] five seconds after a ball too fat for it was dropped between flagstick and wall."""
+    """Speed [m/s] five seconds after a ball too fat for it fell between flagstick and wall."""
     world = green(accuracy, flagstick=True, radius=0.0235)
     world.place('ball', (0.033, 0.0, 0.1), velocity=(0.0, 0.0, 0.0))
     run(world, 10.0, rate)
@@ -618,7 +633,7 @@ def wedged_in_the_hole(accuracy, rate):
 
 
 def of(function, *arguments):
-    """A figure of a preset and a rate, its other arguments given."""
+    """Bind a figure of a preset and a rate to its other arguments."""
     return lambda accuracy, rate: function(*arguments, accuracy, rate)
 
 

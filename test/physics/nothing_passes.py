@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Random shots at what nothing may pass: how many do, of how many, and how deep any ball gets into it.
+"""Random shots at what nothing may pass: how many do, of how many, and how deep any ball gets.
 
 A shot has passed where, at any tick, its ball's centre is on the other side of a sheet without
 having gone round its edge, or where it has gone straight on through what stood in its way. Speeds
@@ -48,13 +48,13 @@ WOOD = Material('wood', HARD.restitution, 0.0, 0.45, 0.4, 0.05, 0.002)
 
 
 def units(random, count):
-    """Unit vectors, evenly over the sphere."""
+    """Draw unit vectors, evenly over the sphere."""
     arrows = random.normal(size=(count, 3))
     return arrows / np.linalg.norm(arrows, axis=1)[:, np.newaxis]
 
 
 def shots(random, count):
-    """Unit directions downwards, every fourth nearly level, and speeds, spins and ways to go."""
+    """Draw unit directions downwards, every fourth nearly level, and speeds, spins, ways to go."""
     ways = random.normal(size=(count, 3))
     ways[::4, 2] *= 10.0 ** random.uniform(-9, -1, len(ways[::4]))
     ways[:, 2] = -np.abs(ways[:, 2])
@@ -67,22 +67,22 @@ def shots(random, count):
 
 
 def flights(course, begins, times, rate, accuracy, others=0):
-    """Fly shots, those of like `times` together.
+    """Fly shots, those of like `times` together; yield where they are at every tick.
 
-    Yield their numbers and where they are at every tick.
+    What is yielded is their numbers and their positions (ticks, shots, balls, 3).
 
     ``begins``: what each ball's `World.place` gets, a list of (position, velocity, spin) for each
-    shot; of several balls a shot, the first is placed first. Positions are (ticks, shots, balls,
-    3).
+    shot; of several balls a shot, the first is placed first.
     """
     balls = 1 + others
     world = World(course, AT_ONCE * balls, accuracy=accuracy)
-    # by name takes most of the time
+    # Looking balls up by name takes most of the time.
     names, rows = np.reshape(world.names, (AT_ONCE, balls)), world._balls
     nowhere = world.state()
     order = np.argsort(times)
     for first in range(0, len(times), AT_ONCE):
-        numbers = order[first : first + AT_ONCE]
+        last = first + AT_ONCE
+        numbers = order[first:last]
         world.restore(nowhere)
         for ball in range(balls):
             for number, own in zip(numbers, names):
@@ -141,7 +141,7 @@ SQUARES = 12  # on a side of the sheet
 
 
 def sheet():
-    """A crumpled mesh of one layer."""
+    """Make a crumpled mesh of one layer."""
     side = np.linspace(-HALF, HALF, SQUARES + 1)
     x, y = (a.ravel() for a in np.meshgrid(side, side))
     first = np.arange(len(x)).reshape(SQUARES + 1, -1)[:-1, :-1].ravel()
@@ -175,7 +175,7 @@ def at_the_mesh(setting, seed=1):
         return j, i
 
     def around(places):
-        """Corners (n, 18, 3, 3) of the triangles of the square under each place, and of those around."""
+        """Corners (n, 18, 3, 3) of the triangles of the square under each place and around it."""
         return blocks[square(places)]
 
     def over(triangles, places):
@@ -224,11 +224,11 @@ def at_the_patch(setting, seed=2):
 
 
 def spline(heights, spacing):
-    """Height at x of the natural cubic spline through equally spaced `heights`, the first at -HALF."""
+    """Height at x of the natural cubic spline through `heights`, equally spaced from -HALF on."""
     n = len(heights)
     matrix, right = np.eye(n), np.zeros(n)
     for i in range(1, n - 1):
-        matrix[i, i - 1 : i + 2] = 1.0, 4.0, 1.0
+        matrix[i, [i - 1, i, i + 1]] = 1.0, 4.0, 1.0
         right[i] = 6.0 * (heights[i - 1] - 2.0 * heights[i] + heights[i + 1]) / spacing**2
     bends = np.linalg.solve(matrix, right)
 

@@ -36,7 +36,7 @@ print(json.dumps(result, default=lambda array: array.tolist()))
 
 
 def run(function, *arguments, plain=True):
-    """What `function`, of a test module, returns in a process of its own.
+    """Run `function`, of a test module, in a process of its own: what it returns.
 
     Numbers keep all their digits.
     """

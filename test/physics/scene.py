@@ -12,7 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What a ball's place and motion on planes, patches and meshes mean, worked out apart from the physics."""
+"""What a ball's place and motion on the shapes mean, worked out apart from the physics.
+
+The shapes are planes, patches and meshes.
+"""
 
 from functools import lru_cache
 from math import cos, inf, pi, sin
@@ -47,7 +50,7 @@ class Faces(NamedTuple):
 
 
 def sides_of(shape):
-    """Unit vectors along and across a shape."""
+    """Find the unit vectors along and across a shape."""
     normal = np.array(shape.normal, float) / np.linalg.norm(shape.normal)
     heading = getattr(shape, 'heading', 0.0)
     ahead = np.array([cos(heading), sin(heading), 0.0])
@@ -93,7 +96,7 @@ def faces(ground):
 
 @lru_cache
 def rims(ground):
-    """Starts and ends of the edges of all cuts, two (n, 3) arrays."""
+    """Find starts and ends of the edges of all cuts, two (n, 3) arrays."""
     lines = [
         (lifted(shape, a), lifted(shape, b))
         for shape in ground
@@ -168,7 +171,7 @@ def touches(course, point, within=1e-6):
 
 
 def bowl(rings=8, spokes=24, radius=0.6, depth=0.2):
-    """A dish of triangles around the z axis, in facets."""
+    """Make a dish of triangles around the z axis, in facets."""
     places = [(0.0, 0.0, 0.0)]
     for ring in range(1, rings + 1):
         for spoke in range(spokes):

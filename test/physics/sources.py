@@ -50,7 +50,7 @@ def targets(node):
 
 
 def field_of(node):
-    """Name of the record and of its field in an expression like ``ball['phase']``, else two times None."""
+    """Name of the record and of its field in an expression like ``ball['phase']``, or two None."""
     if (
         isinstance(node, ast.Subscript)
         and isinstance(node.slice, ast.Constant)

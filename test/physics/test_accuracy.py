@@ -12,9 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What the presets promise.
+"""What the presets promise, and that a path depends on its strike alone.
 
-And that a path depends on its strike alone: on no tick, process or compiler.
+It depends on no tick, process or compiler.
 """
 
 from driving_range import (
@@ -110,7 +110,7 @@ SHOTS = {
 
 
 def advanced(velocity, spin, accuracy, rate):
-    """Result, collisions, and places after every fiftieth of a second, of a shot that is played in ticks."""
+    """Play a shot in ticks: result, collisions, and places after every fiftieth of a second."""
     world = World(hilly(), effects=EVERYTHING, accuracy=accuracy)
     world.strike('ball', velocity, spin)
     events, places = [], [world['ball'].position]

@@ -12,11 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Drag and lift against published measurements: tour averages, a driver chart; and as laws."""
+"""Drag and lift against published measurements, launch monitors' models of flight; and as laws."""
 
 import csv
 from math import pi
 from pathlib import Path
+import sys
 
 from driving_range import launched, level, TURF
 from golf_sim_ros.physics import Air, LogProfile, PowerProfile, simulate_many, UniformProfile
@@ -27,6 +28,7 @@ import numpy as np
 import pytest
 
 DATA = Path(__file__).parents[1] / 'data'
+TOOLS = Path(__file__).parents[2] / 'tools'
 MPH, YARD, RPM, DEGREE = 0.44704, 0.9144, pi / 30, pi / 180
 PGA = ('trackman_pga_2010s.csv', 'trackman_pga_2023.csv')
 
@@ -43,14 +45,14 @@ def table(name):
 
 
 def flown(name, **more):
-    """What becomes of a table's shots."""
+    """Play a table's shots: what becomes of them."""
     column = table(name)
     velocities = launched(column('ball_speed_mph') * MPH, column('launch_deg') * DEGREE)
     return play(velocities, column('spin_rpm') * RPM, **more)
 
 
 def play(velocities, backspin, air=None, **more):
-    """What becomes of shots on level turf."""
+    """Play shots on level turf: what becomes of them."""
     course = level(TURF) if air is None else level(TURF, air=air)
     spins = np.zeros((len(velocities), 3))
     spins[:, 1] = -backspin
@@ -63,14 +65,81 @@ def test_the_tour_averages_are_met_by_every_club(name):
     carry = shots['carry'] / YARD - column('carry_yd')
     apex = shots['apex'] / YARD - column('max_height_yd')
     angle = shots['landing_angle'] / DEGREE - column('land_angle_deg')
-    assert np.abs(carry).mean() <= 3.0 and np.abs(carry).max() <= 7.0, carry
+    assert np.abs(carry).mean() <= 3.0, carry
+    # TrackMan's own model (a quadratic surface through the bins below) carries a 3-wood's launch
+    # 7 and 8 yd farther than its average: no law meets both.
+    wood = np.arange(len(carry)) == 1
+    assert np.abs(carry[~wood]).max() <= 6.0 and np.abs(carry[wood]).max() <= 8.0, carry
     assert np.abs(apex).mean() <= 1.5, apex
     assert np.abs(angle).mean() <= 3.5, angle
 
 
 def test_the_driver_chart_is_met():
     name = 'trackman_driver_chart_2010_aoa0.csv'
-    assert np.abs(flown(name)['carry'] / YARD - table(name)('carry_yd')).mean() <= 4.0
+    assert np.abs(flown(name)['carry'] / YARD - table(name)('carry_yd')).mean() <= 3.0
+
+
+BANDS = (0.0, 0.06, 0.09, 0.13, 0.2, 0.3)  # of the spin ratio at launch
+
+
+def test_trackman_s_model_is_met_at_every_spin_ratio():
+    name = 'trackman_model_bins.csv'
+    column, shots = table(name), flown(name)
+    carry = shots['carry'] / YARD - column('carry_yd')
+    assert np.sqrt((carry**2).mean()) <= 2.5
+    ratio = 0.021335 * column('spin_rpm') * RPM / (column('ball_speed_mph') * MPH)
+    bands = [carry[(low <= ratio) & (ratio < high)] for low, high in zip(BANDS, BANDS[1:])]
+    assert [len(band) for band in bands] == [1, 26, 37, 19, 0]
+    for band in bands:
+        assert len(band) < 3 or abs(band.mean()) <= 2.0, band
+    assert np.abs(shots['apex'] / YARD - column('max_height_ft') / 3).mean() <= 1.5
+    assert np.abs(shots['landing_angle'] / DEGREE - column('land_angle_deg')).mean() <= 1.0
+    assert np.abs(shots['flight_time'] - column('flight_time_s')).mean() <= 0.2
+
+
+def test_flightscope_s_model_is_met():
+    column = table('flightscope_launches.csv')
+    velocities = launched(column('ball_speed_mph') * MPH, column('launch_deg') * DEGREE)
+    axis, spin = column('spin_axis_deg') * DEGREE, column('total_spin_rpm') * RPM
+    right = np.tile((0.0, -1.0, 0.0), (len(spin), 1))
+    above = np.cross(right, velocities / np.linalg.norm(velocities, axis=1)[:, None])
+    spins = spin[:, None] * (np.cos(axis)[:, None] * right - np.sin(axis)[:, None] * above)
+    shots = simulate_many(level(TURF), velocities, spins)
+    carry = shots['carry'] / YARD - column('carry_yd')
+    assert np.sqrt((carry**2).mean()) <= 2.5 and abs(carry.mean()) <= 1.5, carry
+    assert np.abs(shots['apex'] / YARD - column('max_height_ft') / 3).mean() <= 1.5
+
+
+@pytest.fixture(scope='module')
+def fit():
+    """Import the module of the fit."""
+    pytest.importorskip('scipy')
+    sys.path.append(str(TOOLS))
+    import fit_aerodynamics
+
+    return fit_aerodynamics
+
+
+def test_the_laws_are_what_the_fit_comes_to(fit):
+    for law, found in zip((DragLaw(), LiftLaw()), fit.fitted()):
+        assert found._asdict() == pytest.approx(law._asdict(), rel=2e-3)
+
+
+def test_the_fit_flies_as_the_engine_does(fit):
+    carry, apex, angle, time = fit.fly((DragLaw(), LiftLaw()), fit.READ[PGA[0]])
+    shots = flown(PGA[0])
+    assert carry == pytest.approx(shots['carry'] / YARD, abs=0.02)
+    assert apex == pytest.approx(shots['apex'] / YARD, abs=0.02)
+    assert angle == pytest.approx(shots['landing_angle'] / DEGREE, abs=0.05)
+    assert time == pytest.approx(shots['flight_time'], abs=0.005)
+
+
+def test_rows_that_were_held_out_are_met_as_well_as_those_that_were_fitted(fit):
+    for name, errors in fit.table_errors((DragLaw(), LiftLaw())).items():
+        held = fit.is_held_out(errors.shape[1])
+        carry = np.abs(errors[0])
+        if held.any():
+            assert carry[held].mean() <= 1.3 * carry[~held].mean() + 0.3, name
 
 
 DRIVER = launched(np.array([74.7]), np.array([10.9 * DEGREE]))
@@ -119,8 +188,23 @@ def coefficients(ratio, reynolds):
 
 def test_the_laws_are_positive_and_bounded():
     drag, lift = coefficients(RATIO, REYNOLDS)
-    assert 0.1 < drag.min() and drag.max() < 1.5
-    assert 0.0 < lift.min() and lift.max() < 0.6
+    assert 0.15 < drag.min() and drag.max() < 0.6
+    assert 0.0 < lift.min() and lift.max() < 0.5
+
+
+def test_drag_below_the_crisis_is_that_of_a_sphere_whatever_its_spin():
+    ratio, reynolds = np.meshgrid(np.linspace(0.0, 2.0, 21), np.geomspace(1e3, 4e4, 21))
+    drag, _ = coefficients(ratio, reynolds)
+    # With spin 0.51 to 0.54 at S = 1 (Naruo 2004; Bearman and Harvey 1976).
+    assert 0.4 < drag.min() and drag.max() < 0.55
+    # A smooth sphere without spin: Lapple and Shepherd 1940.
+    for re, measured in ((3e3, 0.40), (5e3, 0.385), (1e4, 0.405), (2e4, 0.45), (3e4, 0.47)):
+        assert drag_coefficient(DragLaw(), 0.0, re * re) == pytest.approx(measured, abs=0.07)
+
+
+def test_drag_grows_with_spin_and_lift_does():
+    for law in coefficients(RATIO, REYNOLDS):
+        assert (np.diff(law.reshape(RATIO.shape), axis=1) > 0.0).all()
 
 
 def test_the_laws_have_no_step_and_no_kink():
@@ -130,6 +214,15 @@ def test_the_laws_have_no_step_and_no_kink():
         )
         # Second differences of a smooth function go with the step's square.
         assert np.abs(ahead - 2 * here + behind).max() < 60 * size * size
+
+
+def test_the_laws_second_derivatives_have_no_step():
+    for size in (1e-2, 1e-3):
+        f = [
+            coefficients(RATIO + 0.1 * k * size, REYNOLDS * (1 + k * size)) for k in (-1, 0, 1, 2)
+        ]
+        # Third differences of a function that is C2 and more go with the step's cube.
+        assert np.abs(f[3] - 3 * f[2] + 3 * f[1] - f[0]).max() < 100 * size**3
 
 
 def test_neighbouring_shots_carry_nearly_the_same():

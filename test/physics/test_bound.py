@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The bound on a path's segments: the same end at every rate, in a call of any length, and in many shots.
+"""The bound on a path's segments: the same end at every rate, in any call, and in many shots.
 
 The bound itself is half a minute of plain Python, so that these play with less.
 """
@@ -40,7 +40,10 @@ ALONG, SPIN = (0.0, 2.0, 0.0), (0.0, 0.0, 0.0)
 
 
 def groove():
-    """A course whose tee is in a groove along y: what two surfaces hold takes 5000 segments a second."""
+    """Make a course whose tee is in a groove along y.
+
+    What two surfaces hold takes 5000 segments a second.
+    """
     half = 0.5**0.5
     sides = [
         Patch((side, 0.0, 1.0), (-side * half, 0.0, half), 0.0, 2.0 / half, 400.0, SMOOTH)

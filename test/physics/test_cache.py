@@ -35,7 +35,7 @@ VARIABLES = ('GOLF_SIM_ROS_CACHE', 'NUMBA_CACHE_DIR', 'XDG_CACHE_HOME')
 
 @pytest.fixture
 def place(monkeypatch):
-    """A folder that all can enter, with a home and a place for temporary files.
+    """Make a folder that all can enter, with a home and a place for temporary files.
 
     The environment says so.
     """
@@ -61,7 +61,7 @@ def made(path, mode=0o755, owner=None):
 
 
 def kept(folder, owner=None, mode=0o644):
-    """A file of compiled code in `folder`, which is made."""
+    """Make a file of compiled code in `folder`, which is made, too."""
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / 'flight.nbi'
     file.write_bytes(b'code')
@@ -73,7 +73,7 @@ def kept(folder, owner=None, mode=0o644):
 
 @contextmanager
 def running_as(user):
-    """This process as another user."""
+    """Run as another user."""
     groups = os.getgroups()
     os.setgroups([])
     os.setegid(user)
@@ -411,7 +411,7 @@ def test_a_disk_that_is_full_is_told(place, monkeypatch):
 
 
 def in_a_mount(source, where):
-    """What a process is told in whose eyes `source`, arguments of mount, is mounted there."""
+    """Mount `source`, arguments of mount, at `where`: what a process says that sees it there."""
     said = subprocess.run(
         [
             'unshare',
@@ -537,7 +537,7 @@ def test_a_link_to_itself_or_to_nothing_is_told(place, monkeypatch, target):
 
 @as_root
 def test_where_root_has_no_number_what_belongs_to_it_is_trusted(place):
-    """As in a container that an ordinary user started: the machine's own files belong to nobody."""
+    """As in a container that an ordinary user started: the machine's own files are nobody's."""
     python = shutil.which('python3', path='/usr/bin:/bin')
     if not python or not shutil.which('unshare'):
         pytest.skip('needs unshare, and a Python that every user can run')

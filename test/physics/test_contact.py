@@ -62,7 +62,7 @@ def first_bounce(material, velocity, spin, accuracy='standard'):
 
 
 def end_of(world):
-    """The result of the shot under way."""
+    """Play the shot under way to its end: the result."""
     return next(event for event in world.advance(301.0) if isinstance(event, Result))
 
 
@@ -497,7 +497,7 @@ def test_summing_the_last_bounces_moves_the_rest_with_the_square_of_their_speed(
 
 @pytest.mark.parametrize('rise', [0.0, 0.05])
 def test_the_sum_of_the_last_bounces_counts_that_soft_turf_throws_a_fast_ball_up(rise):
-    # Without that, half of them are off by more than 5e-4 m. Up a rise, balls that skim live on
+    # Without that, half of them are off by more than 5e-4 m. Up a rise, balls that skim
     # it.
     velocities, spins = random_shots(300, seed=7)
     course = slope(-rise, TURF)

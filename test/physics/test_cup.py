@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The hole: which putts it takes follows from contact alone, and what it takes lies on its bottom."""
+"""The hole: which putts it takes follows from contact alone; what it takes lies on its bottom."""
 
 from math import cos, hypot, sin, sqrt
 import os

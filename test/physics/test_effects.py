@@ -12,10 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The contract of every registered effect: documented, finite, repeatable.
-
-Absent is the same as off.
-"""
+"""Contract of every registered effect: documented, finite, repeatable; absent is as off."""
 
 from itertools import product
 from math import isfinite
@@ -27,6 +24,7 @@ from golf_sim_ros.physics.effects import (
     effective_normal,
     flight_rates,
     gravity_at,
+    LIVE,
     protocol,
     Scene,
 )
@@ -42,7 +40,7 @@ SCENES = {
     'calm turf': Scene(level(TURF)),
     'hard ground': Scene(level(HARD)),
     'no air': Scene(level(HARD, air=NO_AIR)),
-    'wind': Scene(level(TURF), wind=(4.0, -3.0, 0.5)),
+    'wind': Scene(level(TURF), live={'wind': (4.0, -3.0, 0.5)}),
 }
 SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
 effects = pytest.mark.parametrize('name', EFFECTS)
@@ -99,7 +97,7 @@ def test_an_effect_is_a_record_of_finite_numbers(name):
 
 @pytest.fixture(scope='module')
 def told():
-    """What each effect says, differs by, and changes where auto leaves it out.
+    """Find what each effect says, differs by, and changes where auto leaves it out.
 
     From two processes.
     """
@@ -130,7 +128,7 @@ def test_an_effect_is_finite_and_repeatable(name, told):
 
 @entry
 def asked(effect, ground, flow, force):
-    """What an effect says of a flying ball: acceleration, spin rate, longest step."""
+    """Ask an effect of a flying ball: acceleration, spin rate, longest step."""
     return (
         protocol.acceleration(effect, flow),
         protocol.spin_rate(effect, flow),
@@ -157,7 +155,7 @@ def test_an_effect_says_the_same_compiled(name, told):
 
 
 def answers(name):
-    """What an effect alone says of many states, extreme ones too: acceleration, spin rate, pull, normal."""
+    """Ask an effect alone of many states, extreme too: acceleration, spin rate, pull, normal."""
     told = []
     speeds = (
         (0, 0, 0),
@@ -210,7 +208,7 @@ def test_an_effect_that_auto_leaves_out_would_change_nothing(name, told):
 
 
 def ends_without_and_with(name):
-    """Ends of a shot by auto and by auto with `name`, in all scenes where auto leaves it out."""
+    """End a shot by auto and by auto with `name`, in all scenes where auto leaves it out."""
     pairs = []
     for scene in SCENES.values():
         on, off, *_ = choose('auto', scene)
@@ -221,7 +219,7 @@ def ends_without_and_with(name):
 
 def end(scene, names):
     """Figures of a shot's end."""
-    play = simulate(scene.course, SHOT, wind=scene.wind, effects=names, rate=10.0)
+    play = simulate(scene.course, SHOT, effects=names, rate=10.0, **scene.live)
     told = play.result
     return [*told.position, told.carry, told.apex, told.duration, *play.spins[-2]]
 
@@ -232,7 +230,7 @@ def test_an_effect_that_is_on_matters(name, told):
 
 
 def difference(name):
-    """By how much [m] a shot in the wind would come to rest elsewhere, or come down, without an effect."""
+    """Find how far off [m] a shot in the wind would come to rest, or down, without an effect."""
     scene = SCENES['wind']
     others = [
         other
@@ -241,7 +239,7 @@ def difference(name):
     ]
     places = []
     for names in ((*others, name), others):
-        world = World(scene.course, wind=scene.wind, effects=names)
+        world = World(scene.course, effects=names, **scene.live)
         world.strike('ball', *SHOT)
         world.advance(30.0)
         places.append(world['ball'].position)
@@ -254,7 +252,7 @@ def test_the_order_of_the_names_does_not_matter():
 
 
 def ends_in_orders():
-    """Ends of a shot with the same effects named in two orders."""
+    """End a shot with the same effects named in two orders."""
     names = ('gravity', 'drag', 'magnus')
     return [end(SCENES['calm turf'], order) for order in (names, names[::-1])]
 
@@ -267,8 +265,7 @@ def test_effects_not_asked_for_are_off_and_say_so():
 
 @pytest.mark.parametrize('scene', SCENES)
 def test_what_is_off_is_of_no_type_that_the_kernels_see(scene):
-    course, wind = SCENES[scene].course, SCENES[scene].wind
-    world = World(course, wind=wind, engine='python')
+    world = World(SCENES[scene].course, engine='python', **SCENES[scene].live)
     kinds = {
         type(record).__name__ for record in (*world._model.effects, *world._model.land.effects)
     }
@@ -287,9 +284,9 @@ def test_a_rolling_ball_evaluates_no_aerodynamics_and_a_resting_one_plans_no_seg
 
 
 def evaluations():
-    """Evaluations of the rates of flight: of a short flight, of a roll at two times.
+    """Count evaluations of the rates of flight: of a short flight, of a roll at two times.
 
-    The end of the rest.
+    The last number is the end of the rest.
     """
     world, told = World(level(TURF)), []
     for velocity in ((3.0, 0.0, 3.0), (2.0, 0.0, 0.0)):
@@ -324,8 +321,8 @@ def test_an_alternative_is_simulated_only_by_name():
 
 def test_an_unknown_effect_is_named_with_the_known_ones():
     known = 'auto, ball_ball, bearman_harvey_1976, drag'
-    with pytest.raises(ValueError, match=f"'rain' is unknown; known: {known}"):
-        World(level(TURF), effects=('gravity', 'rain'))
+    with pytest.raises(ValueError, match=f"'snow' is unknown; known: {known}"):
+        World(level(TURF), effects=('gravity', 'snow'))
 
 
 @pytest.mark.parametrize(
@@ -338,7 +335,7 @@ def test_an_unknown_effect_is_named_with_the_known_ones():
             ('naruo_2004', 'ferguson_lift'),
             "'naruo_2004' and 'ferguson_lift' are two laws for the same",
         ),
-        ('rain', "'rain' is unknown"),
+        ('snow', "'snow' is unknown"),
     ],
 )
 def test_names_that_do_not_go_together_are_refused(names, said):
@@ -357,7 +354,7 @@ def test_another_package_can_add_an_effect():
 
 
 def ends_with_down_draught():
-    """Ends of a shot without and with an effect that another package registers."""
+    """End a shot without and with an effect that another package registers."""
     from typing import NamedTuple
 
     from golf_sim_ros.physics.effects import protocol
@@ -374,9 +371,23 @@ def test_a_live_parameter_is_set_by_the_name_of_its_effect():
     by_name, as_wind = World(level(TURF)), World(level(TURF))
     by_name.set_live('wind', (3, 4, 0))
     as_wind.set_wind((3, 4, 0))
-    assert by_name.live == as_wind.live == {'wind': (3.0, 4.0, 0.0)}
+    assert by_name.live == as_wind.live and by_name.live['wind'] == (3.0, 4.0, 0.0)
     assert by_name.state() == as_wind.state() and by_name.effects_on == as_wind.effects_on
     with pytest.raises(
-        ValueError, match="'drag' has nothing that can be set; those that do: wind"
+        ValueError, match="'drag' has nothing that can be set; those that do: .*wind"
     ):
         by_name.set_live('drag', (1.0,))
+
+
+def test_an_effect_with_a_live_parameter_does_nothing_at_its_default():
+    assert 'wind' in LIVE and set(LIVE) <= set(EFFECTS)
+    for name, live in LIVE.items():
+        assert live.check(live.default) == live.default
+        assert EFFECTS[name].idle(Scene(level(TURF))) and EFFECTS[name].dormant
+
+
+def test_a_keyword_that_no_effect_has_is_refused_with_those_there_are():
+    with pytest.raises(TypeError, match="unexpected keyword argument 'acuracy'.*: .*wind"):
+        World(level(TURF), acuracy='sketch')
+    with pytest.raises(ValueError, match='over 100 m/s'):
+        World(level(TURF), wind=(0.0, 0.0, 101.0))

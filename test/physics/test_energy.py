@@ -51,7 +51,7 @@ STILL = ('gravity',)
 
 
 def directions(random, count):
-    """Unit vectors, evenly over the sphere."""
+    """Draw unit vectors, evenly over the sphere."""
     arrows = random.normal(size=(count, 3))
     return arrows / np.linalg.norm(arrows, axis=1)[:, np.newaxis]
 
@@ -67,7 +67,7 @@ def shots(count, seed):
 
 @pytest.fixture(scope='module')
 def links():
-    """The course that the package ships, without its pond, in which a ball would be lost."""
+    """Load the course that the package ships, without its pond, in which a ball would be lost."""
     return load_course('golf_without_friends')._replace(water=())
 
 
@@ -186,7 +186,7 @@ def test_a_ball_among_patches_anyhow_gains_no_energy(clutter, velocity, spin):
 
 
 def hills(heights, material):
-    """The same 5 by 5 `heights` twice, half a metre apart: a height map, and right of it a mesh."""
+    """Lay the same 5 by 5 `heights` twice: a height map, and 0.5 m right of it a mesh."""
     heights = np.reshape(heights, (5, 5))
     x, y = np.meshgrid(np.linspace(1.0, 3.0, 5), np.linspace(-1.0, 1.0, 5))
     first = np.arange(25).reshape(5, 5)[:-1, :-1].ravel()

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Two engines for the same physics: plain Python at once, compiled code where the play calls for it."""
+"""Two engines for the same physics: plain Python at once, compiled code where play needs it."""
 
 from collections import Counter
 import importlib.util
@@ -285,7 +285,7 @@ def modules_with_an_effect_of_ours():
 
 
 def test_no_two_kernels_have_the_same_name():
-    """Code that two processes compiled meets in a third, where the same name stands for the same code."""
+    """Code that two processes compiled meets in a third; the same name is the same code there."""
     names = [(function.__module__, function.__qualname__) for function in ROLES]
     names += [(generic.__module__, f'choose_{generic.__name__}') for generic in GENERICS]
     assert [name for name, count in Counter(names).items() if count > 1] == []
@@ -309,6 +309,8 @@ def compiled_where_nothing_can_be_written():
     compiled = []
 
     class Listener(event.Listener):
+        """Notes whose functions are compiled."""
+
         def on_start(self, told):
             compiled.append(told.data['dispatcher'].py_func.__module__)
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""`simulate_many` on every kind of executor that docs/tools.md names: the same bits, and no hang."""
+"""`simulate_many` on every kind of executor of docs/tools.md: the same bits, and no hang."""
 
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 import importlib.util
@@ -46,7 +46,7 @@ if __name__ == "__main__":
 
 
 def alone():
-    """The shots one after the other."""
+    """Play the shots one after the other."""
     return simulate_many(COURSE, VELOCITIES, SPINS)
 
 
@@ -64,7 +64,7 @@ def processes():
 
 @pytest.fixture
 def cluster(tmp_path):
-    """The executor of a scheduler with two workers in processes of their own, and its client."""
+    """Start a scheduler with two workers in processes of their own: executor and client."""
     distributed = pytest.importorskip('distributed', reason='dask.distributed is not installed')
     with (
         distributed.LocalCluster(
@@ -141,5 +141,5 @@ class Lethal:
     def __init__(self, executor):
         self.executor = executor
 
-    def map(self, function, parts):
+    def map(self, function, parts):  # noqa: A003
         return self.executor.map(die, parts)

@@ -36,7 +36,7 @@ DRIVE, PUTT = (60.0, 1.0, 15.0), (2.0, 0.0, 0.0)
 
 @pytest.fixture
 def case(tmp_path):
-    """`case(name)` gives the course of a case file."""
+    """Give a function of a case file's name that loads its course."""
     shutil.copy(shipped_courses()['putting_green'].with_suffix('.npy'), tmp_path)
 
     def load(name):
@@ -46,7 +46,7 @@ def case(tmp_path):
 
 
 def played(world, seconds=400.0, tick=0.02):
-    """The results of all that moves, after so many seconds at most."""
+    """Play all that moves, so many seconds at most: the results."""
     events = []
     while world.moving and world.time < seconds:
         events += world.advance(tick)

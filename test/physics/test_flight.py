@@ -85,7 +85,7 @@ def test_a_ball_in_vacuum_lands_at_v2_sin2a_over_g(accuracy):
 
 @pytest.fixture(scope='module')
 def told():
-    """What the other effects do, tried in plain Python."""
+    """Run what the other effects do in plain Python."""
     return run(findings)
 
 
@@ -196,7 +196,7 @@ def test_without_gravity_quadratic_drag_lets_a_ball_coast(accuracy, told):
 
 
 def coasting(accuracy):
-    """Times, ways and speeds of a ball with nothing but drag."""
+    """Fly a ball with nothing but drag: times, ways and speeds."""
     world = World(level(HARD), effects=('constant_drag',), accuracy=accuracy)
     world.place('ball', (0, 0, 5), (80, 0, 0))
     rows = []
@@ -351,7 +351,10 @@ def test_wind_grows_with_height_over_the_ground_as_its_profile_says(name, told):
 
 
 def shares_of_wind(name):
-    """Heights over the ground, on the plain and over a hill of 30 m, and the wind there over that at 10 m."""
+    """Heights over the ground, and the wind there over that at 10 m.
+
+    Once on the plain, once over a hill of 30 m.
+    """
     ground = (
         Plane(material=TURF),
         Patch((100.0, 0.0, 30.0), length=20.0, width=20.0, material=TURF),

@@ -12,7 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A short run of tools/fuzz.py: random scenes of allowed numbers, five shots in each, in plain Python."""
+"""A short run of tools/fuzz.py: random scenes of allowed numbers, five shots in each.
+
+They are played in plain Python.
+"""
 
 from pathlib import Path
 import sys

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Hard cases: each YAML file in hard_cases/ holds a course, and plays on it with their expected answers.
+"""Hard cases: each YAML file in hard_cases/ holds a course, and plays with expected answers.
 
 A case puts the ball down (`place`, with `velocity` and `spin`), or strikes it as well (`strike`,
 `spin`), and says how it `ends` once it stops, or at `until`; `first` is the first collision,

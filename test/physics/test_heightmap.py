@@ -67,7 +67,7 @@ def surface(height, material=GREEN, spacing=0.5, low=(-10, -10), high=(10, 10)):
 
 
 def step():
-    """A map with a rise of 1 m over one cell of 0.5 m."""
+    """Make a map with a rise of 1 m over one cell of 0.5 m."""
     return surface(lambda x, y: 1.0 * (x > 0.1) + 0 * y, HARD, 0.5, (-4, -4), (4, 4))
 
 
@@ -154,7 +154,7 @@ def test_a_ball_in_a_bowl_swings_at_5_7_of_a_sliding_one():
     assert period == pytest.approx(2 * pi / sqrt(5 * G / (7 * (curve - RADIUS))), rel=5e-3)
 
 
-def test_a_rolling_ball_has_the_spin_of_rolling_at_every_instant_and_not_only_where_a_segment_ends():
+def test_a_rolling_ball_has_the_spin_of_rolling_at_every_instant_not_only_where_a_segment_ends():
     land = surface(lambda x, y: 0.05 * np.sin(0.7 * x) + 0.04 * np.cos(0.5 * y))
     world = World(Course((land,)), effects=GRAVITY)
     world.place('ball', (-5.0, 1.0))
@@ -284,7 +284,10 @@ def test_nothing_tunnels_through_a_steep_map():
 def test_friction_under_a_press_of_thousands_of_weights_does_not_hold_up_time(
     start, velocity, spin
 ):
-    """Ground that turns fast drives slip and spin as hard as friction takes them: no step shrinks to none."""
+    """Ground that turns fast drives slip and spin as hard as friction takes them.
+
+    No step shrinks to none.
+    """
     world = World(
         Course((step(), Plane((0, 0, -3), material=HARD))), effects=GRAVITY, accuracy='reference'
     )
@@ -373,7 +376,8 @@ def test_heights_that_are_none_are_refused_in_one_line(tmp_path, heights, said):
         (b'heights', 'is no .npy file'),
         (b'\x93NUMPY\x01\x00', 'no .npy file that can be read'),
         (
-            b"\x93NUMPY\x01\x00F\x00{'descr': '<f8', 'fortran_order': False, 'shape': (99999, 99999), }   \n",
+            b"\x93NUMPY\x01\x00F\x00{'descr': '<f8', 'fortran_order': False, "
+            b"'shape': (99999, 99999), }   \n",
             'it tells of (99999, 99999) numbers, and ends',
         ),
         (None, 'cannot be read'),

@@ -34,7 +34,7 @@ TIME = 3.2  # s
 
 
 def flown(velocity, spin, time):
-    """State after `time`, or at the first touch of level ground, by scipy's DOP853 at rtol 1e-12."""
+    """State after `time`, or at first touch of level ground, by scipy's DOP853 at rtol 1e-12."""
 
     def touch(_, y):
         return y[2] - oracles.RADIUS
@@ -87,7 +87,7 @@ def record(name):
 
 
 def flights(method, strikes):
-    """Evaluations and places (n, 3) at TIME of shots flown by `method`."""
+    """Fly shots by `method`: evaluations, and places (n, 3) at TIME."""
     costs, places = [], []
     for strike in np.array(strikes):
         world = World(level(TURF), effects=EVERYTHING, accuracy=Preset(method, FINE))
@@ -106,7 +106,7 @@ def flights_by(name, lengths, strikes):
 
 @pytest.fixture(scope='module')
 def truth():
-    """True places (n, 3) of the high shots at TIME."""
+    """Find the true places (n, 3) of the high shots at TIME."""
     return np.array([flown(strike[:3], strike[3:], TIME)[0][:3] for strike in high_shots()])
 
 
@@ -120,8 +120,9 @@ def typical_error(places, truth):
     [
         ('euler', 1, 1, (50, 100, 200)),
         ('rk4', 4, 5, (16, 32, 64)),
-        # A narrow range: from 6 to 24 steps the drag crisis is not resolved (slope 6 to 7), beyond 48
-        # the error hardly falls (3e-11 m at 96). Between neighbours in it the order is 6.3 and 3.5.
+        # A narrow range: from 6 to 24 steps the drag crisis is not resolved (slope 6 to 7), beyond
+        # 48 the error hardly falls (3e-11 m at 96). Between neighbours in it the order is 6.3 and
+        # 3.5.
         ('fixed_dormand_prince', 5, 7, (24, 36, 48)),
     ],
 )
@@ -191,7 +192,7 @@ def test_every_integrator_comes_to_the_same_flight(name, truth):
 
 @pytest.fixture(scope='module')
 def hundred():
-    """A hundred strikes, and where they truly land: place (x, y, z) and time."""
+    """Draw a hundred strikes, and find where they truly land: place (x, y, z) and time."""
     velocities, spins = random_shots(100, seed=8)
     ends = [flown(v, w, 60.0) for v, w in zip(velocities, spins)]
     return velocities, spins, np.array([(*state[:3], time) for state, time in ends])

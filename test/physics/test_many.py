@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Many shots at once: in threads and processes the same to the bit, with a bar that sees every part."""
+"""Many shots at once: in threads and processes the same bits, with a bar that sees every part."""
 
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
@@ -29,7 +29,7 @@ GUSTS = np.array([[0.0, 4.0, -3.0, 0.0], [0.7, -5.0, 2.0, 0.0]])
 
 
 def alone():
-    """The shots one after the other."""
+    """Play the shots one after the other."""
     return simulate_many(level(TURF), VELOCITIES, SPINS, GUSTS)
 
 

@@ -35,7 +35,7 @@ from oracles import RADIUS
 import pytest
 from scene import energy
 
-# 100,000 for the whole lot: RANDOM_SHOTS=1000000
+# RANDOM_SHOTS=1000000 gives 100,000 of them, the whole lot
 SHOTS = int(os.environ.get('RANDOM_SHOTS', 300)) // 10
 WOOD = Material('wood', Restitution(0.45), 0.0, 0.45, 0.4, 0.05, 0.002)
 LEAVES = Material('leaves', drag=0.25)
@@ -89,7 +89,7 @@ def test_no_shot_passes_a_cylinder_of_10_mm():
     random = np.random.default_rng(7)
     course = Course((Plane(material=HARD),), obstacles=(STICK,), effects=GRAVITY)
     aside = random.uniform(-1, 1, SHOTS) * (0.01 + RADIUS)
-    # by a hair
+    # every fourth is hit, or missed, by a hair
     aside[::4] = (0.01 + RADIUS) * (1 - 10.0 ** random.uniform(-12, -2, len(aside[::4])))
     spins = random.normal(size=(SHOTS, 3))
     spins *= (random.uniform(0, 2000, SHOTS) / np.linalg.norm(spins, axis=1))[:, np.newaxis]

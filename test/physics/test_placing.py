@@ -40,7 +40,7 @@ STICK = 0.0095  # m, radius
 
 
 def hillside(grade):
-    """A course that rises towards +x."""
+    """Make a course that rises towards +x."""
     return Course(
         (Plane(normal=(-grade / hypot(1, grade), 0, 1 / hypot(1, grade)), material=STEEP),),
         effects=('gravity',),
@@ -115,7 +115,8 @@ def saved(tmp_path, text):
     'what, reason',
     [
         (
-            'obstacles: [{shape: cylinder, base: [0, 0, 0], radius: 0.3, height: 8, material: rough}]',
+            'obstacles:\n'
+            '  - {shape: cylinder, base: [0, 0, 0], radius: 0.3, height: 8, material: rough}',
             'obstacle',
         ),
         (
@@ -173,7 +174,7 @@ def trunk():
 
 @pytest.fixture
 def wood(trunk):
-    """A world with a trunk 8 m high at x = 10, and a ball of stone over the ground at x = 20."""
+    """Make a world with a trunk 8 m high at x = 10, and a ball of stone over ground at x = 20."""
     stone = Sphere((20.0, 0.0, 0.5), 0.4, WOOD)
     return World(Course((Plane(material=HARD),), obstacles=(trunk, stone)))
 
@@ -203,7 +204,7 @@ def test_a_place_under_a_stone_is_on_the_ground(wood):
 
 @pytest.fixture
 def green():
-    """A world with a hole and a flagstick 3 m from the tee."""
+    """Make a world with a hole and a flagstick 3 m from the tee."""
     return World(Course((Plane(material=HARD),), hole=(3.0, 0.0)))
 
 

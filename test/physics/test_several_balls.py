@@ -224,7 +224,7 @@ def test_a_full_log_of_events_loses_its_last_one():
 
 
 def filled():
-    """Times and count of a log for two events that three were written to."""
+    """Write three events to a log for two: its times and its count."""
     log = new_log(2)
     for time in (1.0, 2.0, 3.0):
         next_event(log)['time'] = time

@@ -20,7 +20,7 @@ from other_process import run
 
 
 def spent(balls, velocity, seconds):
-    """Counts by stage of the first `seconds` of a strike among `balls`, and all that passed meanwhile."""
+    """Play the first `seconds` of a strike among `balls`: counts by stage, and all that passed."""
     world = World(level(TURF), balls)
     world.measure()
     began = cycles_now()

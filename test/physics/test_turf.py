@@ -217,7 +217,7 @@ def test_both_engines_play_an_impact(name):
 
 
 def putt_ends(speeds, headings, fall):
-    """Ends (n, 2) of balls released rolling at `speeds` and `headings` on a green that falls by `fall`."""
+    """Roll balls off at `speeds` and `headings` on a green that falls by `fall`: ends (n, 2)."""
     green = Material(name='green', **shipped()[0]['green'])
     course = Course((Plane(normal=(0.0, -fall, 1.0), material=green),))
     world, ends = World(course), []

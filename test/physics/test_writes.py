@@ -27,41 +27,23 @@ from golf_sim_ros.physics.state.ball import BALL
 import pytest
 from sources import field_of, functions, targets, trees
 
-# What a name in a docstring stands for, beside the name of a field: of a ball, if nothing else is
-# said.
+# What a name in a docstring stands for, beside the name of a field: of a ball, if none is named.
 CURVE = ('span', 'origin', 'position_coefficients', 'spin_coefficients')
 LANDING = ('landed', 'landing', 'landed_at', 'landing_velocity')
 WARM_START = ('stored_count', 'stored_partners', 'stored_impulses')
 MICRO_BOUNCES = ('micro_bounce_end', 'micro_bounce_load', 'micro_bounce_air')
 INTEGRATOR = ('step', 'stages', 'last_stage_time', 'evaluations')
+# fmt: off
 PILE = (
-    'time_stepping',
-    'still_steps',
-    'held_by',
-    'rolling_loss',
-    'contact_reach',
-    'watches_neighbours',
-    'sleeps_on_ball',
-    'rapid_impacts',
-    *WARM_START,
+    'time_stepping', 'still_steps', 'held_by', 'rolling_loss', 'contact_reach',
+    'watches_neighbours', 'sleeps_on_ball', 'rapid_impacts', *WARM_START,
 )
 SHOT = (
-    'shot_active',
-    'moved_by_ball',
-    'struck',
-    'struck_at',
-    'launch',
-    'launch_spin',
-    'apex',
-    *LANDING,
-    'bounces',
-    'ended',
-    'over_time',
-    'failed',
-    'counted_until',
-    'segments_spent',
+    'shot_active', 'moved_by_ball', 'struck', 'struck_at', 'launch', 'launch_spin', 'apex',
+    *LANDING, 'bounces', 'ended', 'over_time', 'failed', 'counted_until', 'segments_spent',
     'zero_length_segments',
 )
+# fmt: on
 GROUPS = {
     'motion': ('position', 'velocity', 'spin'),
     'contact': ('support', 'material', 'normal'),
@@ -111,7 +93,7 @@ class Kernel:
         self.written.discard(None)
 
     def effect(self, node):
-        """What writing to the expression `node` writes, like ``ball.spin``.
+        """Name what writing to the expression `node` writes, like ``ball.spin``.
 
         None if nothing that counts.
         """
@@ -132,7 +114,7 @@ class Kernel:
                 return None
 
     def field(self, node, record, field):
-        """What writing a field of the record `node` writes."""
+        """Name what writing a field of the record `node` writes."""
         while isinstance(node, ast.Name) and node.id in self.aliases:
             node = self.aliases[node.id]
         text = ast.unparse(node)
@@ -145,7 +127,7 @@ class Kernel:
 
 
 def aliases(function):
-    """Local names of a function that stand for a place in something else: the expressions of their places."""
+    """Local names of a function that stand for a place in something else, with its expression."""
     found = {}
     for node in ast.walk(function):
         if (
@@ -164,7 +146,7 @@ def decorators(function):
 
 
 def kernels():
-    """All kernels by name, as lists: of a generic first what it says, then its bodies for records."""
+    """All kernels by name, as lists: of a generic first what it says, then bodies for records."""
     found = {}
     for place, tree in trees():
         for function in functions(tree):
@@ -203,7 +185,7 @@ def effects():
 
 
 def of_call(kernel, call, found):
-    """What a call within a kernel writes."""
+    """Find what a call within a kernel writes."""
     name = ast.unparse(call.func).rpartition('.')[2]
     if name == 'store' or name not in KERNELS:
         return

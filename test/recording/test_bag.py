@@ -18,15 +18,11 @@ import json
 from math import pi
 import sqlite3
 
+from golf_sim_ros.recording.bag import BagError, read_bag
+from golf_sim_ros.recording.journal import Journal, JournalError, opened, sealed
 import pytest
-import yaml
-
-pytest.importorskip('rosbags')
-
-from golf_sim_ros.recording.bag import BagError, read_bag  # noqa: E402
-from golf_sim_ros.recording.journal import Journal, JournalError, opened, sealed  # noqa: E402
-import recorded_play  # noqa: E402
-from recorded_play import (  # noqa: E402
+import recorded_play
+from recorded_play import (
     bag,
     changed,
     CHIP,
@@ -39,7 +35,8 @@ from recorded_play import (  # noqa: E402
     TYPES,
     without,
 )
-from rosbags.rosbag2 import StoragePlugin, Writer  # noqa: E402
+from rosbags.rosbag2 import StoragePlugin, Writer
+import yaml
 
 STORAGES = ('mcap', 'sqlite3')
 
@@ -327,5 +324,7 @@ def test_an_entry_comes_back_to_the_bit_and_what_is_not_a_number_as_text():
 def test_any_changed_byte_of_an_entry_is_noticed():
     line = sealed({'entry': 3, 'kind': 'strike', 'tick': 5, 'velocity': list(PITCH)})
     for i, letter in enumerate(line):
+        changed_line = list(line)
+        changed_line[i] = chr(ord(letter) ^ 1)
         with pytest.raises(JournalError):
-            opened(line[:i] + chr(ord(letter) ^ 1) + line[i + 1 :])
+            opened(''.join(changed_line))

@@ -20,13 +20,12 @@ are those of the recording the bits are the same, elsewhere all agrees to 1e-9.
 
 from pathlib import Path
 
+from golf_sim_ros.recording.bag import read_bag
+from golf_sim_ros.recording.journal import made_with
+from golf_sim_ros.recording.replay import difference, rerun, shots, tick_of, world_of
 import pytest
 
 pytest.importorskip('rosbags')
-
-from golf_sim_ros.recording.bag import read_bag  # noqa: E402
-from golf_sim_ros.recording.journal import made_with  # noqa: E402
-from golf_sim_ros.recording.replay import difference, rerun, shots, tick_of, world_of  # noqa: E402
 
 BAGS = Path(__file__).parents[1] / 'data' / 'bags'
 KINDS = {  # statuses of the shots, kinds of collision, kinds of input

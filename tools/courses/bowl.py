@@ -22,10 +22,10 @@ SIDE = 2  # triangles to a side of the outline
 
 
 def bowl(outline, rim, lip, depth):
-    """Triangles (n, 3, 3), facing up, of a bowl in `outline`, corners (x, y) that go round counterclockwise.
+    """Triangles (n, 3, 3), facing up, of a bowl in `outline`.
 
-    It begins `lip` [m] below the height of the `rim` and is `depth` [m] deep from the rim to its
-    middle.
+    The outline is of corners (x, y) that go round counterclockwise. The bowl begins `lip` [m]
+    below the height of the `rim` and is `depth` [m] deep from the rim to its middle.
     """
     corners = np.asarray(outline, float)
     middle = corners.mean(0)

@@ -12,7 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""What land is made of: functions of x, y [m] that give heights [m] or shares from 0 to 1, as arrays."""
+"""What land is made of: functions of x, y [m] that give heights [m] or shares from 0 to 1.
+
+Both are arrays.
+"""
 
 from math import cos, pi, sin
 from random import Random
@@ -21,7 +24,7 @@ import numpy as np
 
 
 def grid(low, high, spacing):
-    """x (1, nx) and y (ny, 1) of a grid from `low` to `high`, pairs of x and y."""
+    """Grid x (1, nx) and y (ny, 1) from `low` to `high`, pairs of x and y."""
     x, y = (np.arange(round((b - a) / spacing) + 1) * spacing + a for a, b in zip(low, high))
     return x[np.newaxis], y[:, np.newaxis]
 
@@ -41,7 +44,7 @@ def inland(x, y, low, high, width):
 
 
 def away(x, y, center, radii, heading=0.0):
-    """Distance from `center`, over the radii of an ellipse whose first one lies along `heading`."""
+    """Distance from `center`, over the radii of an ellipse whose first lies along `heading`."""
     dx, dy = x - center[0], y - center[1]
     c, s = cos(heading), sin(heading)
     return np.hypot((c * dx + s * dy) / radii[0], (c * dy - s * dx) / radii[1])
@@ -60,7 +63,10 @@ def plateau(x, y, center, radii, slope, heading=0.0):
 
 
 def waves(x, y, seed, lengths, count):
-    """Waves of `count` directions, their lengths [m] between the two of `lengths`: mean 0, about -1 to 1."""
+    """Waves of `count` directions, their lengths [m] between the two of `lengths`.
+
+    Their mean is 0, and they go from about -1 to 1.
+    """
     random = Random(seed)
     total = 0.0
     for i in range(count):

@@ -21,6 +21,7 @@ from .writing import npy, polygon, rectangle, rounded, stl
 BUNKER, LIP, BUNKER_DEPTH = [(20, 7), (24, 6), (27, 9), (25, 13), (21, 12)], 0.1, 0.5
 LOW, HIGH, SPACING = (34.0, -8.0), (50.0, 8.0), 0.5  # of the green
 
+# Courses are known by the digest of their files, so that the bytes of these stay.
 TEXT = """\
 # Everything that a course may hold, within 60 m: every shape and material, zones, obstacles, water, a hole
 # and bounds.
@@ -60,7 +61,7 @@ water:
 obstacles:
   - {{shape: cylinder, base: [13, 9, 0], radius: 0.2, height: 4, material: wood}}
   - {{shape: sphere, center: [13, 9, 5.2], radius: 2, material: leaves}}
-"""
+"""  # noqa: E501
 
 
 def heights():

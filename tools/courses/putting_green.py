@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""A green to putt on: a ridge across it, a bowl behind the ridge, and a putt of 3 m that breaks."""
+"""A green to putt on: a ridge across it, a bowl behind that, and a putt of 3 m that breaks."""
 
 import numpy as np
 
@@ -24,6 +24,7 @@ MIDDLE, RADII = (5.0, 0.0), (10.5, 9.5)  # of the green
 SHOULDER = 6.0  # m from the map's outline to where the land is as high as it is meant to be
 HOLE = (3.0, 0.0)
 
+# Courses are known by the digest of their files, so that the bytes of these stay.
 TEXT = """\
 # A putting green of 21 x 19 m, stimp 10: from the tee a putt of 3 m that breaks to the right; elsewhere
 # longer ones, over a ridge and into a bowl. Made by tools/make_courses.py; change it there.
@@ -45,7 +46,7 @@ ground:
 zones:
   - material: green
     polygon: {green}
-"""
+"""  # noqa: E501
 
 
 def heights():

@@ -14,17 +14,20 @@
 
 """The course as markers: one list of triangles a material, and what stands on the ground."""
 
+from collections.abc import Iterable, Sequence
 from functools import singledispatch
+from typing import Any
 
 from geometry_msgs.msg import Point
 import numpy as np
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ...drawing.polygon_triangles import triangles
+from ...drawing.polygon_triangles import Polygon, triangles
 from ...drawing.relief import relief
+from ...drawing.sunlight import banded, lit
 from ...drawing.zone_triangles import cells, curved, flat, sheet
-from ...physics import geometry, ground_height
+from ...physics import Course, geometry, ground_height, Material
 from ...physics.geometry.cup import DEPTH, RADIUS
 from ...physics.geometry.heightmap import corners as corners_of_map
 from ...physics.geometry.heightmap import Heightmap
@@ -34,19 +37,25 @@ from ...physics.geometry.plane import Plane
 from ...physics.geometry.plane_patch import frame
 from ...physics.geometry.solid import FLAGSTICK_HEIGHT, FLAGSTICK_RADIUS, Sphere
 
+Corner = Sequence[float]  # x, y, z
+Painted = list[tuple[Material, Any]]  # materials, and triangles of each
+
 MARGIN = 60.0  # m of an endless plane that are drawn around everything else
 HOLE_DIAMETER = 2 * RADIUS
 FLAG = ((0.0, 2.13), (0.0, 1.73), (-0.6, 1.93))  # m: along x and over the stick's foot
 TEE_MARKERS = 4.0  # m from one to the other
 UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
-BLACK, WHITE, RED = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.85, 0.1, 0.1)
+BLACK = (0.0, 0.0, 0.0)
+WHITE = (1.0, 1.0, 1.0)
+RED = (0.85, 0.1, 0.1)
 GRID = 33  # heights a side of ground that is shown by its heights
-BLUE, CLEAR = (0.15, 0.4, 0.75), 0.6  # water, and how much of it is seen
+BLUE = (0.15, 0.4, 0.75)  # water
+CLEAR = 0.6  # how much of it is seen
 
 
-def course_markers(course, frame_id):
-    """MarkerArray of `course`, stamp 0 so that viewers use their newest transform."""
-    by_material = {}
+def course_markers(course: Course, frame_id: str) -> MarkerArray:
+    """Make the MarkerArray of `course`, stamp 0 so that viewers use their newest transform."""
+    by_material: dict[Material, list[Corner]] = {}
     for number, shape in enumerate(course.ground):
         for material, pieces in surface(shape, course, number):
             by_material.setdefault(material, []).extend(
@@ -63,15 +72,22 @@ def course_markers(course, frame_id):
     return MarkerArray(markers=markers)
 
 
-def ground_marker(number, material, corners):
-    """TRIANGLE_LIST of all that is of `material`."""
+def ground_marker(number: int, material: Material, corners: Iterable[Corner]) -> Marker:
+    """Make the TRIANGLE_LIST of all that is of `material`.
+
+    Viewers light a list without colours of its own, half of it ambient, and show it nearly black:
+    each point has a colour, in which the sun is baked.
+    """
     made = marker('ground', number, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), material.color)
-    made.points = points(corners)
+    places = np.array([tuple(corner) for corner in corners], float).reshape(-1, 3, 3)
+    made.points = points(places.reshape(-1, 3))
+    shades = [rgb(color) for color in lit(places, material)]
+    made.colors = [shade for shade in shades for _ in range(3)]
     return made
 
 
 @singledispatch
-def surface(shape, course, number):
+def surface(shape: Any, course: Course, number: int) -> Painted:
     """Materials, and triangles of three (x, y, z) of each, that show entry `number` of the ground.
 
     A kind of ground that has no function of its own here is shown by its heights on a grid.
@@ -84,7 +100,7 @@ def surface(shape, course, number):
 
 
 @surface.register
-def _plane(shape: Plane, course, number):
+def _plane(shape: Plane, course: Course, number: int) -> Painted:
     if abs(shape.normal[2]) < UPRIGHT:
         return wall(shape)
     pieces = flat(outskirts(course), covered(shape, course, number), shape.material, course.zones)
@@ -92,26 +108,25 @@ def _plane(shape: Plane, course, number):
 
 
 @surface.register
-def _patch(shape: Patch, course, number):
-    corners = rectangle(shape)
+def _patch(shape: Patch, course: Course, number: int) -> Painted:
     if abs(shape.normal[2]) < UPRIGHT:
-        return [(shape.material, [corners[:3], [corners[0], *corners[2:]]])]
-    outline = [tuple(corner[:2]) for corner in corners]
+        return standing(shape)
+    outline = [tuple(corner[:2]) for corner in rectangle(shape)]
     pieces = flat(outline, covered(shape, course, number), shape.material, course.zones)
     return lifted(shape.center, shape.normal, pieces)
 
 
 @surface.register
-def _mesh(shape: Mesh, course, number):
+def _mesh(shape: Mesh, course: Course, number: int) -> Painted:
     return curved(shape.vertices[shape.faces], shape.material, course.zones)
 
 
 @surface.register
-def _heightmap(shape: Heightmap, course, number):
+def _heightmap(shape: Heightmap, course: Course, number: int) -> Painted:
     return curved(cells(shape.heights, shape.origin, shape.spacing), shape.material, course.zones)
 
 
-def rectangle(patch):
+def rectangle(patch: Patch) -> list[np.ndarray]:
     """Four corners of `patch`."""
     _, along, across = frame(patch.normal, patch.heading)
     along, across = 0.5 * patch.length * along, 0.5 * patch.width * across
@@ -121,34 +136,44 @@ def rectangle(patch):
     ]
 
 
-def wall(plane):
+def wall(plane: Plane) -> Painted:
     """Two triangles of an upright `plane`, as wide and high as `MARGIN`."""
-    return _patch(Patch(plane.point, plane.normal, 0.0, MARGIN, MARGIN, plane.material), None, 0)
+    return standing(Patch(plane.point, plane.normal, 0.0, MARGIN, MARGIN, plane.material))
 
 
-def lifted(place, normal, pieces):
-    """`pieces`, pairs of a material and triangles of (x, y), with z of the plane through `place`."""
+def standing(patch: Patch) -> Painted:
+    """Two triangles of an upright `patch`."""
+    corners = rectangle(patch)
+    return [(patch.material, [corners[:3], [corners[0], *corners[2:]]])]
 
-    def height(x, y):
+
+def lifted(place: Corner, normal: Corner, pieces: Painted) -> Painted:
+    """`pieces`, pairs of a material and triangles of (x, y), with z of the plane at `place`."""
+
+    def height(x: float, y: float) -> float:
         return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
 
     return [
-        (material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
+        (
+            material,
+            [[(x, y, height(x, y)) for x, y in corners] for corners in banded(found, material)],
+        )
         for material, found in pieces
     ]
 
 
-def covered(shape, course, number):
+def covered(shape: Plane | Patch, course: Course, number: int) -> list[Polygon]:
     """Polygons where `shape` is not seen: its cuts, and later patches in the same plane."""
+    after = number + 1
     later = [
         patch
-        for patch in course.ground[number + 1 :]
+        for patch in course.ground[after:]
         if isinstance(patch, Patch) and not patch.cut and coplanar(shape, patch)
     ]
     return [*shape.cut, *([tuple(corner[:2]) for corner in rectangle(patch)] for patch in later)]
 
 
-def coplanar(shape, patch):
+def coplanar(shape: Plane | Patch, patch: Patch) -> bool:
     """Whether `patch` lies in the plane of `shape`."""
     normal = frame(shape.normal, 0.0)[0]
     place = shape.point if isinstance(shape, Plane) else shape.center
@@ -156,7 +181,7 @@ def coplanar(shape, patch):
     return parallel and abs(np.subtract(patch.center, place) @ normal) < 1e-6
 
 
-def outskirts(course):
+def outskirts(course: Course) -> Polygon:
     """Corners of a rectangle around all that lies on `course`, `MARGIN` wide."""
     places = [course.tee, *([course.hole] if course.hole else []), *(course.bounds or ())]
     for shape in course.ground:
@@ -165,7 +190,7 @@ def outskirts(course):
     return (low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])
 
 
-def extent(shape):
+def extent(shape: Any) -> Sequence[Any]:
     """Points around what is finite of `shape`."""
     if isinstance(shape, Mesh):
         used = shape.vertices[shape.faces].reshape(-1, 3)
@@ -173,12 +198,12 @@ def extent(shape):
     if isinstance(shape, Heightmap):
         return corners_of_map(shape)
     if isinstance(shape, Plane):
-        return sum(shape.cut, ())
+        return [corner for cut in shape.cut for corner in cut]
     return rectangle(shape) if isinstance(shape, Patch) else geometry.extent(shape)
 
 
-def tee(course):
-    """The two balls between which the tee is."""
+def tee(course: Course) -> list[Marker]:
+    """Make the two balls between which the tee is."""
     made = marker('tee', 0, Marker.SPHERE_LIST, (0.15, 0.15, 0.15), WHITE)
     sides = [(course.tee[0], course.tee[1] + 0.5 * side * TEE_MARKERS) for side in (1, -1)]
     found = [ground_height(course, *side) for side in sides]
@@ -186,29 +211,35 @@ def tee(course):
     return [made]
 
 
-def hole(course):
+def hole(course: Course) -> list[Marker]:
     """Disc, flagstick and flag; nothing without a hole."""
     if course.hole is None:
         return []
     x, y = course.hole
-    z = ground_height(course, x, y)[0]
+    found = ground_height(course, x, y)
+    assert found is not None, 'a course is refused that has no ground around its hole'
+    z, _ = found
     disc = marker('hole', 0, Marker.CYLINDER, (HOLE_DIAMETER, HOLE_DIAMETER, 0.004), BLACK)
     put(disc, x, y, z)
     return [disc, *flagstick(x, y, z - DEPTH)] if course.flagstick else [disc]
 
 
-def flagstick(x, y, z):
+def flagstick(x: float, y: float, z: float) -> list[Marker]:
     """Stick and flag over a hole whose bottom is at `x`, `y`, `z`."""
     diameter, height = 2 * FLAGSTICK_RADIUS, FLAGSTICK_HEIGHT
     stick = marker('hole', 1, Marker.CYLINDER, (diameter, diameter, height), WHITE)
     put(stick, x, y, z + 0.5 * height)
     flag = marker('hole', 2, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), RED)
     flag.points = points((x + ahead, y, z + over) for ahead, over in FLAG)
+    flag.colors = [rgb(RED)] * len(flag.points)
     return [stick, flag]
 
 
-def water(course):
-    """TRIANGLE_LIST of all water, that the ground below shines through; nothing on dry land."""
+def water(course: Course) -> list[Marker]:
+    """Make the TRIANGLE_LIST of all water; nothing on dry land.
+
+    The ground below shines through.
+    """
     if not course.water:
         return []
     made = marker('water', 0, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), BLUE)
@@ -219,15 +250,16 @@ def water(course):
         for triangle in triangles(pond.polygon, pond.cut)
         for x, y in triangle
     )
+    made.colors = [rgb(BLUE, CLEAR)] * len(made.points)
     return [made]
 
 
-def obstacles(course):
+def obstacles(course: Course) -> list[Marker]:
     """Cylinders and spheres."""
     return [obstacle(number, shape) for number, shape in enumerate(course.obstacles)]
 
 
-def obstacle(number, shape):
+def obstacle(number: int, shape: Any) -> Marker:
     """Marker of a cylinder or sphere."""
     across = 2 * shape.radius
     if isinstance(shape, Sphere):
@@ -243,21 +275,28 @@ def obstacle(number, shape):
     return made
 
 
-def marker(namespace, number, kind, scale, color):
+def marker(
+    namespace: str, number: int, kind: int, scale: Sequence[float], color: Sequence[float]
+) -> Marker:
     """Marker of `kind` at the origin."""
     made = Marker(ns=namespace, id=number, type=kind, action=Marker.ADD)
     made.scale.x, made.scale.y, made.scale.z = scale
-    made.color = ColorRGBA(r=float(color[0]), g=float(color[1]), b=float(color[2]), a=1.0)
+    made.color = rgb(color)
     made.pose.orientation.w = 1.0
     return made
 
 
-def put(made, x, y, z):
+def rgb(color: Sequence[float], alpha: float = 1.0) -> ColorRGBA:
+    """Make the message of a colour."""
+    return ColorRGBA(r=float(color[0]), g=float(color[1]), b=float(color[2]), a=alpha)
+
+
+def put(made: Marker, x: float, y: float, z: float) -> None:
     """Move the marker `made`."""
     place = made.pose.position
     place.x, place.y, place.z = float(x), float(y), float(z)
 
 
-def points(corners):
+def points(corners: Iterable[Corner]) -> list[Point]:
     """Point messages of triples."""
     return [Point(x=float(x), y=float(y), z=float(z)) for x, y, z in corners]

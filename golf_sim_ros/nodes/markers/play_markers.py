@@ -15,19 +15,33 @@
 """The play as a handful of markers: balls, trails, last contacts, wind."""
 
 from collections import deque
+from collections.abc import Sequence
+from math import hypot
 
+from std_msgs.msg import Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from .course_markers import marker, points, put
-from ...physics import ground_height
+from ...physics import Course, ground_height, Result, World
 
-TRAIL, TRAILS = 300, 3000  # points at most of a trail, and of all,
+TRAIL = 300  # points at most of a trail
+TRAILS = 3000  # points at most of all trails,
 LEAST = 20  # but so many every trail may have
 CONTACTS = 20  # last contacts that are shown
-TRAIL_WIDTH, CONTACT_SIZE = 0.05, 0.15  # m
+TRAIL_WIDTH = 0.2  # m: less is no pixel from afar
+HALO = 0.6  # m across, around a ball that is no pixel either
+SHEER = 0.3  # how much of the halo is seen
+TEXT_SIZE = 2.0  # m
+OVER_PIN = 4.0  # m over the hole, where the distance stands
+OVER_BALL = 2.0  # m over where a shot ended, where its result stands
+NEAR = 20.0  # m below which the distance is told to a decimetre
+CONTACT_SIZE = 0.15  # m
 ARROW = (0.15, 0.4, 0.5)  # m: diameters of shaft and head, length of the head
 ARROW_HEIGHT = 10.0  # m over the tee, where wind is given
-BALL, PATH, HIT, AIR = (1.0, 1.0, 1.0), (1.0, 0.9, 0.2), (0.9, 0.3, 0.1), (0.3, 0.6, 1.0)
+BALL = (1.0, 1.0, 1.0)
+PATH = (1.0, 0.9, 0.2)
+HIT = (0.9, 0.3, 0.1)
+AIR = (0.3, 0.6, 1.0)
 
 
 class Trail:
@@ -36,17 +50,17 @@ class Trail:
     When full, every other place is dropped and from then on half as many are taken.
     """
 
-    def __init__(self, most):
+    def __init__(self, most: int) -> None:
         self.most = most
         self.clear()
 
-    def clear(self):
+    def clear(self) -> None:
         """Drop all places."""
-        self.places = []
+        self.places: list[tuple[float, ...]] = []
         self.every = 1
         self.seen = 0
 
-    def add(self, place):
+    def add(self, place: Sequence[float]) -> None:
         """Add `place`, unless it is one that is left out."""
         if self.seen % self.every == 0:
             self.places.append(tuple(place))
@@ -59,34 +73,44 @@ class Trail:
 class Scene:
     """Trails and last contacts of the play in `world`, as markers."""
 
-    def __init__(self, world):
+    def __init__(self, world: World) -> None:
         most = max(LEAST, min(TRAIL, TRAILS // len(world.names)))
         self.trails = {name: Trail(most) for name in world.names}
-        self.contacts = deque(maxlen=CONTACTS)
+        self.contacts: deque[tuple] = deque(maxlen=CONTACTS)
         self.size = 2 * world.course.ball.radius
         x, y = world.course.tee
-        self.place = x, y, ground_height(world.course, x, y)[0]
+        found = ground_height(world.course, x, y)
+        assert found is not None, 'a course is refused that has no ground under its tee'
+        self.place = x, y, found[0]
+        self.ended: Result | None = None  # the last shot that did
+        self.pin = hole_of(world.course)
 
-    def markers(self, head, world, wind):
-        """MarkerArray of now: `world` has the balls, `wind` [m/s] an arrow, a metre for each m/s."""
-        found = [self.hits(), self.arrow(wind)]
+    def markers(self, head: Header, world: World, wind: Sequence[float]) -> MarkerArray:
+        """Make the MarkerArray of now.
+
+        `world` has the balls, `wind` [m/s] an arrow, a metre for each m/s.
+        """
+        found = [self.hits(), self.arrow(wind), self.distance(world), self.result()]
         for number, (name, trail) in enumerate(self.trails.items()):
             ball = marker('ball', number, Marker.SPHERE, (self.size,) * 3, BALL)
             put(ball, *world[name].position)
             path = marker('trail', number, Marker.LINE_STRIP, (TRAIL_WIDTH, 0.0, 0.0), PATH)
             path.points = points([*trail.places, world[name].position])
-            found += [ball, path]
+            halo = marker('halo', number, Marker.SPHERE, (HALO,) * 3, BALL)
+            halo.color.a = SHEER
+            put(halo, *world[name].position)
+            found += [ball, halo, path]
         for made in found:
             made.header = head
         return MarkerArray(markers=found)
 
-    def hits(self):
+    def hits(self) -> Marker:
         """Spheres at the last contacts."""
         made = marker('contacts', 0, Marker.SPHERE_LIST, (CONTACT_SIZE,) * 3, HIT)
         made.points = points(self.contacts)
         return hidden(made, not self.contacts)
 
-    def arrow(self, wind):
+    def arrow(self, wind: Sequence[float]) -> Marker:
         """Arrow to where the air goes."""
         x, y, z = self.place
         z += ARROW_HEIGHT
@@ -94,9 +118,41 @@ class Scene:
         made.points = points([(x, y, z), (x + wind[0], y + wind[1], z + wind[2])])
         return hidden(made, not any(wind))
 
+    def distance(self, world: World) -> Marker:
+        """Text over the pin: how far the ball in play is from it."""
+        if self.pin is None:
+            return hidden(text(0, '', self.place), True)
+        x, y, z = self.pin
+        ball = world[world.names[0]].position
+        way = hypot(ball[0] - x, ball[1] - y)
+        return text(0, f'{way:.{int(way < NEAR)}f} m', (x, y, z + OVER_PIN))
 
-def hidden(made, empty):
-    """The marker `made`, or one that takes it away where it is `empty`."""
+    def result(self) -> Marker:
+        """Text over where the last shot ended: how far it went, and on what it lies."""
+        if self.ended is None:
+            return hidden(text(1, '', self.place), True)
+        x, y, z = self.ended.position
+        end = self.ended.lie if self.ended.status == 'at_rest' else self.ended.status
+        told = f'{self.ended.total:.1f} m, {end.replace("_", " ")}'
+        return text(1, told, (x, y, z + OVER_BALL))
+
+
+def hole_of(course: Course) -> tuple[float, float, float] | None:
+    """Middle of the hole on the ground; None where there is none."""
+    found = ground_height(course, *course.hole) if course.hole else None
+    return (*course.hole, found[0]) if course.hole and found else None
+
+
+def text(number: int, words: str, place: Sequence[float]) -> Marker:
+    """Words at a place, facing who looks."""
+    made = marker('text', number, Marker.TEXT_VIEW_FACING, (0.0, 0.0, TEXT_SIZE), BALL)
+    made.text = words
+    put(made, *place)
+    return made
+
+
+def hidden(made: Marker, empty: bool) -> Marker:
+    """Make a marker one that takes it away, where it is `empty`; return it."""
     if empty:
         made.action = Marker.DELETE
         made.points = []

@@ -23,18 +23,22 @@ drag, wind and loss of spin: those below are estimates.
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..effects import flight_rates, protocol, Scene
 from ..effects.ferguson_lift import record as lift
 from ..effects.gravity import Gravity
 from ..effects.linear_drag import LinearDrag
+from ..effects.protocol import Flow
 from ..engine.engines import best
 from ..geometry import surfaces
 from ..integrators.euler import SemiImplicitEuler
 from ..jit import borrowed, entry, kernel
+from ..kernel_types import BallRecord, Land, MaterialRecord, ModelRecord, Vector
 from ..mechanics.vector import add_scaled, dot, length, load, scale, store, tangential, ZERO
 from ..properties.material import restitution
 from ..scene import kernel_model as model_
+from ..scene.course_record import Course
 from ..scene.kernel_model import Limits
 from ..scene.presets import Preset
 from ..simulation import checked_gusts, checked_strikes
@@ -57,19 +61,16 @@ class WindForce(NamedTuple):
 
 
 @protocol.acceleration.register(WindForce)
-def _acceleration(effect, flow):
+def _acceleration(effect: WindForce, flow: Flow) -> Vector:
     return scale(effect.rate * max(flow.position[2], 0.0), load(effect.velocity))
-
-
-@protocol.set_wind.register(WindForce)
-def _take_wind(effect, wind):
-    store(effect.velocity, wind)
 
 
 REPORT_2019 = Preset(SemiImplicitEuler(REPORT_STEP), Limits(STOPPED, 1.0))
 
 
-def play_report_2019(course, velocities, spins, wind=ZERO):
+def play_report_2019(
+    course: Course, velocities: ArrayLike, spins: ArrayLike, wind: ArrayLike = ZERO
+) -> tuple[np.ndarray, np.ndarray]:
     """Play shots as the report would have, each from the tee.
 
     Parameters
@@ -97,7 +98,9 @@ def play_report_2019(course, velocities, spins, wind=ZERO):
 
 
 @entry
-def _play(model, ball, strikes, absorbs):
+def _play(
+    model: ModelRecord, ball: np.ndarray, strikes: np.ndarray, absorbs: np.ndarray
+) -> np.ndarray:
     model = borrowed(model)
     ends = np.empty(len(strikes), ball.dtype)
     for i in range(len(strikes)):
@@ -116,7 +119,7 @@ def _play(model, ball, strikes, absorbs):
 
 
 @kernel
-def move(model, ball):
+def move(model: ModelRecord, ball: BallRecord) -> None:
     """One step of semi-implicit Euler: velocity first. Writes position and velocity."""
     x = load(ball['position'])
     v = load(ball['velocity'])
@@ -127,7 +130,7 @@ def move(model, ball):
 
 
 @kernel
-def push_out(land, ball, time, absorbs):
+def push_out(land: Land, ball: BallRecord, time: float, absorbs: np.ndarray) -> None:
     """Push the ball out of what it is in, and let it bounce. Writes motion, phase, landing."""
     low, high = surfaces.around(load(ball['position']), land.ball.radius)
     part = surfaces.next_part(land.ground, 0, low, high)
@@ -146,7 +149,7 @@ def push_out(land, ball, time, absorbs):
 
 
 @kernel
-def rebound(ball, material, absorbs, normal):
+def rebound(ball: BallRecord, material: MaterialRecord, absorbs: bool, normal: Vector) -> None:
     """Restitution, friction against the velocity, loss of spin. Writes velocity and spin."""
     v = load(ball['velocity'])
     approach = -dot(v, normal)

@@ -16,6 +16,8 @@
 
 from math import sqrt
 
+import numpy as np
+
 from . import ball_interactions
 from .broad_phase import next_node
 from .conservative_advancement import (
@@ -30,6 +32,7 @@ from .conservative_advancement import (
 from .ground_contact import RESTING_GAP
 from .workspace import MultiBallWorkspace
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Vector, WorkRecord
 from ..mechanics.vector import add, dot, length, load, sub, unit, UP, ZERO
 from ..state.ball import BALL_IMPACT, HOLED, moves, REST, STEP_END, STEPPED
 from ..trajectory import segment
@@ -39,7 +42,7 @@ RESTING_APPROACH = 0.02  # m/s of approach: what gravity gives in a time step
 
 
 @kernel
-def position_at(ball, now):
+def position_at(ball: BallRecord, now: float) -> Vector:
     """Position of the ball at `now`, on its present segment."""
     return (
         segment.position(ball, now - ball['begin'])
@@ -49,13 +52,15 @@ def position_at(ball, now):
 
 
 @kernel
-def velocity_at(ball, now):
+def velocity_at(ball: BallRecord, now: float) -> Vector:
     """Velocity of the ball at `now`, on its present segment."""
     return segment.velocity(ball, now - ball['begin']) if moves(ball['phase']) else ZERO
 
 
 @kernel
-def gap_between(a, b, radius, now):
+def gap_between(
+    a: BallRecord, b: BallRecord, radius: float, now: float
+) -> tuple[float, float, Vector]:
     """Gap between two balls at `now`, its rate, and the contact normal from `b` to `a`."""
     apart = sub(position_at(a, now), position_at(b, now))
     normal = unit(apart, UP)
@@ -64,15 +69,15 @@ def gap_between(a, b, radius, now):
 
 
 @kernel
-def acceleration_at_start(ball):
-    """Acceleration at the start of the ball's segment, and a bound on how far it deviates from that."""
+def acceleration_at_start(ball: BallRecord) -> tuple[Vector, float]:
+    """Acceleration at the start of the ball's segment, and a bound on how far it deviates."""
     usual = segment.acceleration_coefficient(ball, 0) if moves(ball['phase']) else ZERO
     return usual, acceleration_deviation(ball, usual)
 
 
 @kernel
-def acceleration_deviation(ball, acceleration):
-    """Bound on the difference of the ball's acceleration, over its segment, from another `acceleration`."""
+def acceleration_deviation(ball: BallRecord, acceleration: Vector) -> float:
+    """Bound on how far the ball's acceleration strays from another, over its segment."""
     if not moves(ball['phase']):
         return length(acceleration)
     most = 0.0
@@ -83,12 +88,19 @@ def acceleration_deviation(ball, acceleration):
 
 
 @kernel
-def cannot_touch(here, other, bend, radius, now, until):
-    """Whether a ball whose position and velocity are `here` can't touch another one from `now` to `until`.
+def cannot_touch(
+    here: tuple[Vector, Vector],
+    other: BallRecord,
+    bend: float,
+    radius: float,
+    now: float,
+    until: float,
+) -> bool:
+    """Whether a ball can't touch another one from `now` to `until`.
 
-    The gap stays above a concave parabola (see conservative_advancement.py), lowest at one of its
-    ends. Without a division: this runs for every pair of the broad phase, and is true of nearly
-    all.
+    Its position and velocity are `here`. The gap stays above a concave parabola (see
+    conservative_advancement.py), lowest at one of its ends. Without a division: this runs for
+    every pair of the broad phase, and is true of nearly all.
     """
     place, velocity = here
     apart = sub(place, position_at(other, now))
@@ -100,8 +112,13 @@ def cannot_touch(here, other, bend, radius, now, until):
 
 
 @kernel
-def separation_time_of_balls(a, b, radius, now, until):
-    """Time by which two balls in contact without approach have separated, or `now` if they press on."""
+def separation_time_of_balls(
+    a: BallRecord, b: BallRecord, radius: float, now: float, until: float
+) -> float:
+    """Time by which two balls in contact without approach have separated.
+
+    It is `now` if they press on.
+    """
     wait = 1e-9
     while now + wait < until and wait < 1e-2:
         gap, rate, _ = gap_between(a, b, radius, now + wait)
@@ -114,10 +131,10 @@ def separation_time_of_balls(a, b, radius, now, until):
 
 
 @kernel
-def time_of_impact_of_balls(a, b, bend, radius, begin, until):
-    """Time of impact of two balls between `begin` and `until`, or a safe time.
-
-    Whether it is an impact.
+def time_of_impact_of_balls(
+    a: BallRecord, b: BallRecord, bend: float, radius: float, begin: float, until: float
+) -> tuple[float, bool]:
+    """Time of impact of two balls between `begin` and `until`, or a safe time; and which it is.
 
     `bend` bounds their relative acceleration: gravity cancels, so of two balls in flight it is
     small.
@@ -142,7 +159,9 @@ def time_of_impact_of_balls(a, b, bend, radius, begin, until):
 
 
 @kernel
-def is_left_to_time_stepping(ball, other, radius, now):
+def is_left_to_time_stepping(
+    ball: BallRecord, other: BallRecord, radius: float, now: float
+) -> bool:
     """Whether the contact of a time-stepped ball with another ball is left to time stepping."""
     if not ball['time_stepping']:
         return False
@@ -155,25 +174,34 @@ def is_left_to_time_stepping(ball, other, radius, now):
 
 
 @kernel
-def within_contact_reach(ball):
-    """Whether a time-stepped ball stays within its contact margin, where it hits only its contacts."""
+def within_contact_reach(ball: BallRecord) -> bool:
+    """Whether a time-stepped ball stays within its contact margin.
+
+    There it hits only its contacts.
+    """
     if ball['time_stepping'] != STEPPED:
         return False
     return length(load(ball['position_coefficients'][5])) <= ball['contact_reach']
 
 
 @ball_interactions.first_ball_contact.register(MultiBallWorkspace)
-def _first_ball_contact(work, balls, i, radius, now):
+def _first_ball_contact(
+    work: MultiBallWorkspace, balls: np.ndarray, i: int, radius: float, now: float
+) -> tuple[float, int, bool]:
     return first_ball_impact(work, balls, i, radius, now)
 
 
 @ball_interactions.interrupt_segments.register(MultiBallWorkspace)
-def _interrupt_segments(work, balls, i, radius, now):
+def _interrupt_segments(
+    work: MultiBallWorkspace, balls: np.ndarray, i: int, radius: float, now: float
+) -> None:
     interrupt_segments_at(work, balls, i, radius, now)
 
 
 @shared
-def interrupt_segments_at(work, balls, i, radius, now):
+def interrupt_segments_at(
+    work: WorkRecord, balls: np.ndarray, i: int, radius: float, now: float
+) -> None:
     """End the segments of other balls that hit ball `i`, which rests now.
 
     They were planned while it still moved, and tested against it only up to the end of its
@@ -202,7 +230,7 @@ def interrupt_segments_at(work, balls, i, radius, now):
 
 
 @kernel
-def is_over_many_stepped(work, balls, low, high):
+def is_over_many_stepped(work: WorkRecord, balls: np.ndarray, low: Vector, high: Vector) -> bool:
     """Whether MANY_STEPPED or more time-stepped balls overlap the box from `low` to `high`."""
     found = 0
     at = next_node(work, 0, low, high)
@@ -213,10 +241,12 @@ def is_over_many_stepped(work, balls, low, high):
 
 
 @shared
-def first_ball_impact(work, balls, i, radius, now):
+def first_ball_impact(
+    work: WorkRecord, balls: np.ndarray, i: int, radius: float, now: float
+) -> tuple[float, int, bool]:
     """Time of impact of ball `i`'s segment with another ball, or a safe time.
 
-    The ball; whether they hit.
+    Also the other ball, and whether they hit.
     """
     ball = balls[i]
     until = ball['end']

@@ -23,6 +23,8 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import generic
+from ..kernel_types import Land, WorkRecord
+from ..state.events import Log
 
 
 class SingleBallWorkspace(NamedTuple):
@@ -46,31 +48,32 @@ class SingleBallWorkspace(NamedTuple):
     position_change: np.ndarray
     motion_before: np.ndarray
     solved_motion: np.ndarray
-    count: np.ndarray
+    count: np.ndarray  # type: ignore[assignment]  # hides tuple.count
     spent: np.ndarray
 
 
 @generic
-def prepare_broad_phase(work, balls, radius):
+def prepare_broad_phase(work: WorkRecord, balls: np.ndarray, radius: float) -> None:
     """Prepare the broad phase for a call of the engine. Writes tree."""
 
 
 @generic
-def update_tree(work, balls, i, radius):
+def update_tree(work: WorkRecord, balls: np.ndarray, i: int, radius: float) -> None:
     """Update the broad phase for ball `i`'s new segment. Writes tree."""
 
 
 @generic
-def first_ball_contact(work, balls, i, radius, now):
-    """First time at which ball `i`'s segment may touch a ball.
-
-    Which ball; whether it is an impact.
-    """
+def first_ball_contact(
+    work: WorkRecord, balls: np.ndarray, i: int, radius: float, now: float
+) -> tuple[float, int, bool]:
+    """First time at which ball `i`'s segment may touch a ball, which, and whether it hits it."""
     return balls[i]['end'], -1, False
 
 
 @generic
-def interrupt_segments(work, balls, i, radius, now):
+def interrupt_segments(
+    work: WorkRecord, balls: np.ndarray, i: int, radius: float, now: float
+) -> None:
     """End the segments of moving balls where they hit ball `i`, which rests from now on.
 
     Writes end, ending, target, segment_ends.
@@ -78,7 +81,9 @@ def interrupt_segments(work, balls, i, radius, now):
 
 
 @generic
-def collect_ball_contacts(work, land, balls, i, now):
+def collect_ball_contacts(
+    work: WorkRecord, land: Land, balls: np.ndarray, i: int, now: float
+) -> None:
     """Add the contacts of ball `i` with other balls, which become involved, at the present.
 
     Writes contacts, involved, motion, end, ending, apex.
@@ -86,7 +91,9 @@ def collect_ball_contacts(work, land, balls, i, now):
 
 
 @generic
-def resolve_ball_impact(work, land, balls, i, now, log):
+def resolve_ball_impact(
+    work: WorkRecord, land: Land, balls: np.ndarray, i: int, now: float, log: Log
+) -> None:
     """Resolve the impact of ball `i` with its target and all that touches, and log it.
 
     Writes ball, work.
@@ -94,7 +101,7 @@ def resolve_ball_impact(work, land, balls, i, now, log):
 
 
 @generic
-def step_together(work, land, balls, i, now):
+def step_together(work: WorkRecord, land: Land, balls: np.ndarray, i: int, now: float) -> bool:
     """Whether ball `i` is time-stepped with others; solves their step if one is due.
 
     Writes ball, work.
@@ -103,7 +110,7 @@ def step_together(work, land, balls, i, now):
 
 
 @generic
-def wake(work, balls, radius, now):
+def wake(work: WorkRecord, balls: np.ndarray, radius: float, now: float) -> None:
     """Wake sleepers that touch involved balls; they wake others as they move.
 
     Writes involved, phase, step, pile, moved_by_ball, struck_at.
@@ -111,5 +118,5 @@ def wake(work, balls, radius, now):
 
 
 @generic
-def log_ball_impacts(work, balls, now, log):
+def log_ball_impacts(work: WorkRecord, balls: np.ndarray, now: float, log: Log) -> None:
     """Log the impacts of balls with balls among the contacts."""

@@ -12,11 +12,13 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Time at which a ball in contact crosses a border in plan: an outline of a surface or of a zone."""
+"""Time at which a ball in contact crosses a border in plan, of a surface or of a zone."""
 
 from .conservative_advancement import advancement_bound, MOST_ADVANCES, TOUCH
 from ..geometry import surfaces
+from ..geometry.surfaces import Ground
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, StructRecord, Vector
 from ..mechanics.vector import add, add_scaled, dot, length, load, sub
 from ..trajectory.segment import (
     extent_along,
@@ -28,7 +30,9 @@ from ..trajectory.segment import (
 
 
 @shared
-def first_border_crossing(ground, ball, radius, until):
+def first_border_crossing(
+    ground: Ground, ball: BallRecord, radius: float, until: float
+) -> tuple[float, bool]:
     """First time, at most `until`, at which the segment crosses a border in plan; whether it does.
 
     What crosses is the ball's foot, its lowest point along the normal: there it is supported.
@@ -69,8 +73,11 @@ def first_border_crossing(ground, ball, radius, until):
 
 
 @kernel
-def limit_crossing_time(ball, point, inward, until):
-    """First time before `until` at which the segment leaves through the line at `point`, or `until`."""
+def limit_crossing_time(ball: BallRecord, point: Vector, inward: Vector, until: float) -> float:
+    """First time before `until` at which the segment leaves through the line at `point`.
+
+    `until` if it does not.
+    """
     time = 0.0
     bend = max(0.0, -least_acceleration(ball, inward))
     for _ in range(MOST_ADVANCES):
@@ -87,10 +94,12 @@ def limit_crossing_time(ball, point, inward, until):
 
 
 @kernel
-def border_crossing_time(border, ball, shift, bend, until):
-    """First time before `until` at which the segment, moved by `shift`, reaches `border`, or `until`.
+def border_crossing_time(
+    border: StructRecord, ball: BallRecord, shift: Vector, bend: float, until: float
+) -> float:
+    """First time before `until` at which the segment, moved by `shift`, reaches `border`.
 
-    A segment that starts on the border has crossed it already.
+    `until` if it does not. A segment that starts on the border has crossed it already.
     """
     time = 0.0
     start = add(position(ball, 0.0), shift)

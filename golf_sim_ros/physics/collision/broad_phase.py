@@ -12,25 +12,28 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Broad phase: which balls may touch, by a tree of axis-aligned bounding boxes (AABB tree).
+r"""Broad phase: which balls may touch, by a tree of axis-aligned bounding boxes (AABB tree).
 
 Every ball's segment has a swept box. The boxes are the leaves of a binary tree, stored depth
 first, so that a query needs no stack: a node whose box is missed is skipped with all below it::
 
         0                nodes  0 1 2 3 4     node 1 has the leaves 2 and 3;
-       / \\               skip   5 4 3 4 5     missing 1, go on at 4
+       / \               skip   5 4 3 4 5     missing 1, go on at 4
       1   4
-     / \\
+     / \
     2   3
 
 A new segment of a ball refits the boxes above its leaf; after as many segments as there are balls
 the tree is rebuilt, for refitting keeps balls together that have moved apart.
 """
 
+import numpy as np
+
 from . import ball_interactions
 from .conservative_advancement import swept_box
 from .workspace import ASLEEP, MultiBallWorkspace, TREE_AGE
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Box, StructRecord, Vector, WorkRecord
 from ..mechanics.vector import add_scaled, load, store
 from ..state.ball import moves, STEPPED
 
@@ -38,7 +41,7 @@ LEAF_MARGIN = 1e-3  # m around the box of a time-stepped ball, which seldom goes
 
 
 @ball_interactions.prepare_broad_phase.register(MultiBallWorkspace)
-def _prepare_broad_phase(work, balls, radius):
+def _prepare_broad_phase(work: MultiBallWorkspace, balls: np.ndarray, radius: float) -> None:
     work.count[ASLEEP] = 0
     for i in range(len(balls)):
         if balls[i]['sleeps_on_ball']:
@@ -48,7 +51,7 @@ def _prepare_broad_phase(work, balls, radius):
 
 
 @kernel
-def segment_box(ball, radius, room):
+def segment_box(ball: BallRecord, radius: float, room: float) -> Box:
     """Swept box of the ball on its whole segment, with `room` around it."""
     if moves(ball['phase']) and ball['time_stepping'] != STEPPED:
         return swept_box(ball, 0.0, ball['end'] - ball['begin'], radius + room)
@@ -66,7 +69,7 @@ def segment_box(ball, radius, room):
 
 
 @kernel
-def write_leaf(ball, node, radius):
+def write_leaf(ball: BallRecord, node: StructRecord, radius: float) -> None:
     """Put the swept box of the ball's segment into its leaf, a fat one if it is time-stepped.
 
     Writes nodes.
@@ -77,8 +80,11 @@ def write_leaf(ball, node, radius):
 
 
 @kernel
-def leaf_serves(ball, node, radius):
-    """Whether the fat box of a time-stepped ball still contains its segment, and is not far too large."""
+def leaf_serves(ball: BallRecord, node: StructRecord, radius: float) -> bool:
+    """Whether the fat box of a time-stepped ball still serves for its segment.
+
+    It does where it contains that and is not far too large.
+    """
     if ball['time_stepping'] != STEPPED:
         return False
     # Neither too small, which would miss contacts, nor so large that queries find balls far away.
@@ -93,7 +99,7 @@ def leaf_serves(ball, node, radius):
 
 
 @kernel
-def refit(work, i):
+def refit(work: WorkRecord, i: int) -> None:
     """Put the box of node `i` around those of its children. Writes nodes."""
     node = work.nodes[i]
     one = work.nodes[i + 1]
@@ -104,7 +110,7 @@ def refit(work, i):
 
 
 @shared
-def rebuild(work, balls, radius):
+def rebuild(work: WorkRecord, balls: np.ndarray, radius: float) -> None:
     """Build the tree top down, with median splits of the longest axis.
 
     Writes nodes, leaves, order, count.
@@ -138,7 +144,7 @@ def rebuild(work, balls, radius):
 
 
 @kernel
-def set_node(node, parent, first, count):
+def set_node(node: StructRecord, parent: int, first: int, count: int) -> None:
     """Set a node's parent and its range of balls. Writes nodes."""
     node['parent'] = parent
     node['first'] = first
@@ -146,7 +152,7 @@ def set_node(node, parent, first, count):
 
 
 @kernel
-def partition(order, balls, first, last, middle):
+def partition(order: np.ndarray, balls: np.ndarray, first: int, last: int, middle: int) -> None:
     """Partition balls `first` to `last` at index `middle` along the longest axis. Writes order."""
     axis = 0
     widest = -1.0
@@ -182,12 +188,12 @@ def partition(order, balls, first, last, middle):
 
 
 @ball_interactions.update_tree.register(MultiBallWorkspace)
-def _update_tree(work, balls, i, radius):
+def _update_tree(work: MultiBallWorkspace, balls: np.ndarray, i: int, radius: float) -> None:
     update_leaf(work, balls, i, radius)
 
 
 @shared
-def update_leaf(work, balls, i, radius):
+def update_leaf(work: WorkRecord, balls: np.ndarray, i: int, radius: float) -> None:
     """Update the tree for ball `i`'s new segment. Writes tree."""
     # A pile moves so little that most of its segments change nothing in the tree.
     leaf = work.leaves[i]
@@ -205,7 +211,7 @@ def update_leaf(work, balls, i, radius):
 
 
 @kernel
-def next_node(work, at, low, high):
+def next_node(work: WorkRecord, at: int, low: Vector, high: Vector) -> int:
     """First leaf from node `at` on whose box overlaps that from `low` to `high`, or -1."""
     while at < len(work.nodes):
         node = work.nodes[at]

@@ -27,6 +27,7 @@ dynamic simulation of rigid body systems, 1996, introduced the name.)
 from math import sqrt
 
 from ..jit import kernel
+from ..kernel_types import BallRecord, Box, Vector
 from ..trajectory.segment import extent_along, greatest_acceleration, position
 
 TOUCH = 1e-11  # m: gaps below count as contact; 300 m have a rounding error of 6e-14 m
@@ -40,10 +41,11 @@ SHORT_BOX = 4.0  # radii: a stretch with a box no longer than this is not worth 
 
 
 @kernel
-def advancement_bound(gap, rate, bend):
-    """Safe time [s] within which a `gap` of that `rate` can't close if its rate falls by `bend` a second.
+def advancement_bound(gap: float, rate: float, bend: float) -> float:
+    """Safe time [s] within which a `gap` of that `rate` can't close.
 
-    The positive root of gap + rate s - bend s^2 / 2, in the form without cancellation.
+    The rate falls by at most `bend` a second. The time is the positive root of
+    gap + rate s - bend s^2 / 2, in the form without cancellation.
     """
     gap = max(gap, 0.0)
     if bend <= 0.0:
@@ -55,7 +57,7 @@ def advancement_bound(gap, rate, bend):
 
 
 @kernel
-def swept_box(ball, begin, end, radius):
+def swept_box(ball: BallRecord, begin: float, end: float, radius: float) -> Box:
     """Swept box of the ball on its segment from `begin` to `end`."""
     if begin == 0.0 and end >= 0.5 * ball['span']:  # the control points bound the segment
         x = extent_along(ball, 0)
@@ -76,6 +78,6 @@ def swept_box(ball, begin, end, radius):
 
 
 @kernel
-def is_long(low, high, size):
+def is_long(low: Vector, high: Vector, size: float) -> bool:
     """Whether the box from `low` to `high` is longer than `size` in any direction."""
     return high[0] - low[0] > size or high[1] - low[1] > size or high[2] - low[2] > size

@@ -38,7 +38,9 @@ from .conservative_advancement import (
 )
 from ..geometry import surfaces
 from ..geometry.plane_patch import FLUSH
+from ..geometry.surfaces import Ground
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Box, Heights, Vector
 from ..mechanics.vector import add_scaled, dot, length, load
 from ..state.ball import NO_PART
 from ..trajectory.segment import (
@@ -73,8 +75,8 @@ OPEN, CLEAR, HIT = range(3)
 
 
 @kernel
-def sees_one_normal(ground, part, ball, normal):
-    """Whether the contact normal of a convex `part` is the same `normal` along the whole segment."""
+def sees_one_normal(ground: Ground, part: int, ball: BallRecord, normal: Vector) -> bool:
+    """Whether a convex `part` has the same contact `normal` along the whole segment."""
     # The points that see one face along its normal form a convex region: it contains a curve whose
     # control points it contains.
     for i in range(6):
@@ -85,10 +87,12 @@ def sees_one_normal(ground, part, ball, normal):
 
 
 @kernel
-def plane_gap_bounds(ground, part, ball, radius):
+def plane_gap_bounds(
+    ground: Ground, part: int, ball: BallRecord, radius: float
+) -> tuple[Heights, float, float]:
     """Bernstein coefficients of the gap to `part` of one normal.
 
-    Bounds on how its rate falls, and rises.
+    Also bounds on how fast its rate falls, and rises.
     """
     distance, normal = surfaces.nearest(ground, part, control_point(ball, 0))
     over = plane_gap_coefficients(ball, normal, distance - radius)
@@ -97,8 +101,13 @@ def plane_gap_bounds(ground, part, ball, radius):
 
 
 @kernel
-def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
-    """`advancement_bound` to a part with hollows of that curvature, `distance` from the ball's centre."""
+def advancement_over_hollows(
+    hollow: float, distance: float, gap: float, rate: float, bend: float, fastest: float
+) -> float:
+    """`advancement_bound` to a part with a `hollow`, its greatest concave curvature.
+
+    The part is at a `distance` from the ball's centre.
+    """
     # The ball's speed bounds the advance from anywhere; the parabola only within the tube of
     # unique nearest points, and so only until the ball may have left that.
     sure = (gap if gap > TOUCH else ESCAPE) / (fastest + 1e-9)
@@ -110,7 +119,9 @@ def advancement_over_hollows(hollow, distance, gap, rate, bend, fastest):
 
 
 @kernel
-def separation_time(ground, part, ball, radius, until):
+def separation_time(
+    ground: Ground, part: int, ball: BallRecord, radius: float, until: float
+) -> float:
     """Time by which a ball in tangential contact with `part` has separated, or 0 if it presses on.
 
     A ball that flies off a flat ridge rises by less than TOUCH before it comes down beyond: up to
@@ -134,12 +145,20 @@ def separation_time(ground, part, ball, radius, until):
 
 
 @kernel
-def penetration_exit_time(ground, part, ball, radius, when, facing):
-    """Safe time [s] for which a ball in a cut of `part`, or behind a one-sided sheet, has not left it yet.
+def penetration_exit_time(
+    ground: Ground,
+    part: int,
+    ball: BallRecord,
+    radius: float,
+    when: tuple[float, float],
+    facing: tuple[float, float, float, float],
+) -> float:
+    """Safe time [s] for which a ball in a cut of `part` has not left it yet.
 
-    There the gap is negative, and no impact. Along a straight line a convex gap stays below its
-    chord, and the path strays from that line by at most A s^2 / 2. A cut reaches up to its
-    outline, however near to the plane the ball moves. `when` and `facing` are as in `touch`.
+    Or a ball behind a one-sided sheet. There the gap is negative, and no impact. Along a straight
+    line a convex gap stays below its chord, and the path strays from that line by at most
+    A s^2 / 2. A cut reaches up to its outline, however near to the plane the ball moves. `when`
+    and `facing` are as in `touch`.
     """
     time, until = when
     gap, _, bend, hollow = facing
@@ -158,13 +177,19 @@ def penetration_exit_time(ground, part, ball, radius, when, facing):
 
 
 @kernel
-def touch(ground, part, ball, radius, when, facing):
+def touch(
+    ground: Ground,
+    part: int,
+    ball: BallRecord,
+    radius: float,
+    when: tuple[float, float],
+    facing: tuple[float, float, float, float],
+) -> tuple[float, int]:
     """Tell what a gap to `part` of zero comes to: OPEN, CLEAR until a later time, or HIT.
 
-    That time, or now.
-
-    `when`: the time of it, and that up to which it is asked; `facing`: the gap, its rate, by how
-    much that falls a second, and the curvature of hollows.
+    The time comes first, the later one or now. `when`: the time of it, and that up to which it is
+    asked; `facing`: the gap, its rate, by how much that falls a second, and the curvature of
+    hollows.
     """
     time, until = when
     rate = facing[1]
@@ -182,10 +207,10 @@ def touch(ground, part, ball, radius, when, facing):
 
 
 @kernel
-def time_of_impact(ground, part, ball, radius, begin, until):
-    """Time of impact with `part` between `begin` and `until`, or a safe time.
-
-    Whether it is an impact.
+def time_of_impact(
+    ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
+) -> tuple[float, bool]:
+    """Time of impact with `part` between `begin` and `until`, or a safe time; and which it is.
 
     Writes segments_spent.
     """
@@ -245,10 +270,12 @@ def time_of_impact(ground, part, ball, radius, begin, until):
 
 
 @shared
-def first_ground_contact(ground, ball, radius, until, on):
+def first_ground_contact(
+    ground: Ground, ball: BallRecord, radius: float, until: float, on: int
+) -> tuple[float, int, bool]:
     """Time of impact of the segment with the ground, or a safe time.
 
-    The part; whether it is an impact.
+    Also the part, and whether it is an impact.
 
     `on` is what the ball keeps contact with meanwhile: IN_THE_AIR nothing; ON_FLAT the plane under
     it, where coplanar surfaces, and edges hit tangentially, are seams and no obstacles; ON_EDGE
@@ -274,7 +301,7 @@ def first_ground_contact(ground, ball, radius, until, on):
 
 
 @kernel
-def has_many_parts(ground, low, high):
+def has_many_parts(ground: Ground, low: Vector, high: Vector) -> bool:
     """Whether MANY_PARTS or more overlap the box from `low` to `high`."""
     if surfaces.parts(ground) < MANY_PARTS:
         return False
@@ -287,10 +314,17 @@ def has_many_parts(ground, low, high):
 
 
 @kernel
-def first_in_box(ground, ball, radius, stretch, box, on):
-    """`first_ground_contact` over a `stretch` of time, begin and end, with parts that overlap the `box`.
+def first_in_box(
+    ground: Ground,
+    ball: BallRecord,
+    radius: float,
+    stretch: tuple[float, float],
+    box: Box,
+    on: int,
+) -> tuple[float, int, bool]:
+    """`first_ground_contact` over a `stretch` of time, with parts that overlap the `box`.
 
-    Writes segments_spent.
+    The stretch is its begin and end. Writes segments_spent.
     """
     begin, end = stretch
     low, high = box
@@ -322,7 +356,9 @@ def first_in_box(ground, ball, radius, stretch, box, on):
 
 
 @kernel
-def is_ignored(ground, part, ball, radius, until, on):
+def is_ignored(
+    ground: Ground, part: int, ball: BallRecord, radius: float, until: float, on: int
+) -> bool:
     """Whether `part` is no obstacle, since the ball is in lasting contact with it: `on`."""
     if on == ON_FLAT:
         foot = add_scaled(load(ball['position']), -radius, load(ball['normal']))
@@ -337,11 +373,11 @@ def is_ignored(ground, part, ball, radius, until, on):
 
 
 @kernel
-def holds_wedged(ground, part, ball, radius):
-    """Whether `part` is within the contact margin of a wedged or time-stepped ball, and so no obstacle.
+def holds_wedged(ground: Ground, part: int, ball: BallRecord, radius: float) -> bool:
+    """Whether `part` is within the contact margin of a wedged or time-stepped ball.
 
-    It still is one to a time-stepped ball that another has just hit: that approaches too fast to
-    wait for the next time step.
+    Then it is no obstacle. It still is one to a time-stepped ball that another has just hit: that
+    approaches too fast to wait for the next time step.
     """
     distance, normal = surfaces.nearest(ground, part, load(ball['position']))
     if not ball['time_stepping']:
@@ -350,8 +386,8 @@ def holds_wedged(ground, part, ball, radius):
 
 
 @kernel
-def is_same_edge(ground, part, ball, until):
-    """Whether the nearest point of `part` is that of the support, at the start and at time `until`."""
+def is_same_edge(ground: Ground, part: int, ball: BallRecord, until: float) -> bool:
+    """Whether the nearest point of `part` is that of the support, at the start and at `until`."""
     if part == ball['support']:
         return True
     for i in range(2):
@@ -364,7 +400,7 @@ def is_same_edge(ground, part, ball, until):
 
 
 @kernel
-def edge_duration(ground, part, ball, until):
+def edge_duration(ground: Ground, part: int, ball: BallRecord, until: float) -> float:
     """Time, `until` at most, for which `part` shares the supporting edge; 0 if not at all.
 
     Two faces share the edge that a ball rolls around: a face is no obstacle before the ball leaves

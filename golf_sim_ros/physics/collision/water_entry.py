@@ -20,7 +20,9 @@ safe as long as either condition must still fail.
 
 from .conservative_advancement import advancement_bound, MOST_ADVANCES, TANGENTIAL, TOUCH
 from ..geometry.polygon import beside_region
+from ..geometry.water_surface import Waters
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord
 from ..mechanics.vector import length, UP
 from ..trajectory.segment import (
     extent_along,
@@ -32,10 +34,10 @@ from ..trajectory.segment import (
 
 
 @shared
-def first_water_entry(waters, ball, until):
-    """First time, at most `until`, at which the segment enters water.
+def first_water_entry(waters: Waters, ball: BallRecord, until: float) -> tuple[float, int]:
+    """First time, at most `until`, at which the segment enters water, and the water's number.
 
-    Number of the water, from 1, or 0.
+    That counts from 1; 0 is none.
     """
     best = until
     who = 0
@@ -50,7 +52,7 @@ def first_water_entry(waters, ball, until):
 
 
 @kernel
-def water_entry_time(waters, i, ball, until):
+def water_entry_time(waters: Waters, i: int, ball: BallRecord, until: float) -> tuple[float, bool]:
     """First time before `until` at which the segment enters water `i`, and whether it does."""
     bend = greatest_acceleration(ball)
     falling = max(0.0, -least_acceleration(ball, UP))
@@ -75,10 +77,10 @@ def water_entry_time(waters, i, ball, until):
 
 
 @kernel
-def time_above(gap, rate, falling):
+def time_above(gap: float, rate: float, falling: float) -> float:
     """Safe time [s] for which a centre `gap` over the level stays above.
 
-    0 below, or on it and sinking.
+    It is 0 below, or on it and sinking.
     """
     if gap < -TOUCH or gap <= TOUCH and rate < -TANGENTIAL:
         return 0.0
@@ -86,6 +88,9 @@ def time_above(gap, rate, falling):
 
 
 @kernel
-def time_outside(away, speed, bend):
-    """Safe time [s] for which a centre `away` [m] from the outline in plan stays outside at that `speed`."""
+def time_outside(away: float, speed: float, bend: float) -> float:
+    """Safe time [s] for which a centre stays outside of an outline in plan.
+
+    It is `away` [m] from it, of that `speed`.
+    """
     return advancement_bound(away, -speed, bend) if away > TOUCH else 0.0

@@ -12,14 +12,15 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Workspace of the engine for one ball or several, its contacts, and the ball whose segment ends first."""
+"""Workspace of the engine for one ball or several, its contacts, and the next event's ball."""
 
-from typing import NamedTuple
+from typing import NamedTuple, Union
 
 import numpy as np
 
 from .ball_interactions import SingleBallWorkspace
 from ..jit import kernel
+from ..kernel_types import WorkRecord
 
 TREE_NODE = np.dtype(
     [
@@ -72,10 +73,11 @@ INVOLVED, CONTACTS, TREE_AGE, ASLEEP = range(4)  # indices of ``count``
 
 
 class MultiBallWorkspace(NamedTuple):
-    """Workspace of an engine whose balls touch each other: that of `SingleBallWorkspace`, and the AABB tree.
+    """Workspace of an engine whose balls touch each other.
 
-    ``nodes`` of the tree, depth first; ``leaves``: each ball's node; ``order`` of the balls while
-    the tree is built; ``neighbours``: balls within reach of the one at hand.
+    That of `SingleBallWorkspace`, and the AABB tree: ``nodes`` of the tree, depth first;
+    ``leaves``: each ball's node; ``order`` of the balls while the tree is built; ``neighbours``:
+    balls within reach of the one at hand.
     """
 
     segment_ends: np.ndarray
@@ -87,7 +89,7 @@ class MultiBallWorkspace(NamedTuple):
     position_change: np.ndarray
     motion_before: np.ndarray
     solved_motion: np.ndarray
-    count: np.ndarray
+    count: np.ndarray  # type: ignore[assignment]  # hides tuple.count
     spent: np.ndarray
     nodes: np.ndarray
     leaves: np.ndarray
@@ -95,7 +97,7 @@ class MultiBallWorkspace(NamedTuple):
     neighbours: np.ndarray
 
 
-def new_workspace(balls, collide):
+def new_workspace(balls: int, collide: bool) -> Union[SingleBallWorkspace, MultiBallWorkspace]:
     """`MultiBallWorkspace` for that many `balls` if they `collide`, else `SingleBallWorkspace`."""
     single = SingleBallWorkspace(
         segment_ends=np.full(balls, np.inf),
@@ -123,7 +125,7 @@ def new_workspace(balls, collide):
 
 
 @kernel
-def next_event_ball(work, until):
+def next_event_ball(work: WorkRecord, until: float) -> int:
     """Ball whose segment ends first, at `until` at the latest, or -1.
 
     A linear search: of equal times the lowest number comes first.

@@ -14,9 +14,9 @@
 
 """Contact mode of a ball, whether it slides, rolls, pivots or rests, and its support."""
 
-from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, MaterialRecord, Vector
 from ..mechanics.impulse import slip
 from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, unit, ZERO
 from ..state.ball import ROLL, SLIDE
@@ -24,13 +24,14 @@ from ..state.transitions import begin_rolling, begin_sliding, come_to_rest
 from ..trajectory.equations_of_motion import (
     LEAST_SPEED,
     material_under,
+    pull_at,
     rolling_deceleration,
     rolling_needs,
 )
 
 
 @kernel
-def set_support(land, ball, part, normal):
+def set_support(land: Land, ball: BallRecord, part: int, normal: Vector) -> None:
     """Set the ball's support to `part`, or to none (NO_PART). Writes support, material, normal."""
     ball['support'] = part
     ball['material'] = contact_material_number(land, ball, part, normal)
@@ -38,20 +39,20 @@ def set_support(land, ball, part, normal):
 
 
 @kernel
-def contact_material_number(land, ball, part, normal):
-    """Number of the material of `part` where the ball touches it with `normal`."""
+def contact_material_number(land: Land, ball: BallRecord, part: int, normal: Vector) -> int:
+    """Look up the number of the material of `part` where the ball touches it with `normal`."""
     foot = add_scaled(load(ball['position']), -land.ball.radius, normal)
     return surfaces.material_of(land.ground, part, foot)
 
 
 @kernel
-def contact_material(land, ball, part, normal):
+def contact_material(land: Land, ball: BallRecord, part: int, normal: Vector) -> MaterialRecord:
     """Row of the material of `part` where the ball touches it with `normal`."""
     return land.materials[contact_material_number(land, ball, part, normal)]
 
 
 @kernel
-def remove_slip(land, ball):
+def remove_slip(land: Land, ball: BallRecord) -> None:
     """Remove all slip at once by the tangential impulse of grip. Writes velocity and spin."""
     normal = load(ball['normal'])
     r = land.ball.radius
@@ -62,19 +63,28 @@ def remove_slip(land, ball):
 
 
 @kernel
-def in_micro_bounces(ball, now):
+def in_micro_bounces(ball: BallRecord, now: float) -> bool:
     """Whether the ball's micro-bounces still go on."""
     return ball['micro_bounce_end'] > now
 
 
 @kernel
-def heading(land, ball):
-    """Unit vector along the velocity, or, of a ball without any, along what friction and weight give it."""
+def pull_on(land: Land, ball: BallRecord) -> Vector:
+    """Acceleration of a ball in contact by its weight and by moving air."""
+    return pull_at(land, load(ball['position']), load(ball['velocity']), load(ball['spin']))
+
+
+@kernel
+def heading(land: Land, ball: BallRecord) -> Vector:
+    """Compute the unit vector along the velocity.
+
+    Of a ball without any it is along the one that friction and weight give it.
+    """
     v = load(ball['velocity'])
     if length(v) > 0.0:
         return unit(v, ZERO)
     normal = load(ball['normal'])
-    press, driven = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
+    press, driven = surfaces.slope(pull_on(land, ball), normal)
     if ball['phase'] == SLIDE:
         sliding = unit(slip(v, load(ball['spin']), normal, land.ball.radius), ZERO)
         driven = add_scaled(
@@ -84,7 +94,7 @@ def heading(land, ball):
 
 
 @kernel
-def touch_down(land, ball, now):
+def touch_down(land: Land, ball: BallRecord, now: float) -> None:
     """Let the ball go on along its support, where it slides at first.
 
     Writes phase, velocity and spin.
@@ -94,7 +104,7 @@ def touch_down(land, ball, now):
 
 
 @shared
-def choose_contact_mode(land, ball, now):
+def choose_contact_mode(land: Land, ball: BallRecord, now: float) -> None:
     """Choose whether a ball in contact slides, rolls, pivots or rests.
 
     Writes phase, velocity and spin.
@@ -103,7 +113,7 @@ def choose_contact_mode(land, ball, now):
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
-    press, downhill = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
+    press, downhill = surfaces.slope(pull_on(land, ball), normal)
     v = add_scaled(load(ball['velocity']), -dot(load(ball['velocity']), normal), normal)
     k = land.ball.inertia
     turning = dot(load(ball['spin']), normal)

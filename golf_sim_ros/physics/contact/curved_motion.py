@@ -24,10 +24,11 @@ geometric series, and what is left is removed at once when it no longer counts.
 from math import inf
 
 from .contact_state import choose_contact_mode, in_micro_bounces, remove_slip
-from ..effects import flight_rates, gravity_at
+from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..integrators import step
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, ModelRecord, Vector
 from ..mechanics.impulse import slip
 from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, sub, ZERO
 from ..state.ball import moves, ROLL, SLIDE
@@ -53,16 +54,19 @@ CORRECTION_WORK = 1
 # of the press at the start: a step at whose end the ground would pull harder is shortened
 LIFTS = 1e-6
 APPROACH = 0.75  # of the time until friction is discontinuous: the longest step towards it
-SLIP_COUNTS = 100.0  # 1/s: slip below this times the limit on a path's error is removed at once,
-GAIN = 0.03  # m/s^2: energy over mass that a step may gain for each metre that a path may be off,
-# J/kg: and this, which lifts a ball by 20 pm, and as much of the square of its speed
-LEAST_GAIN = 2e-10
-LEAST_SLIP = 1e-7  # m/s: or slip below this,
-SLIP_TIME = 1e-8  # s: or below what friction takes in this time, which is longer than a least step
+# Energy over mass that a step may gain: so much for each metre that a path may be off, and so
+# much besides, which lifts a ball by 20 pm, and as much of the square of its speed.
+GAIN = 0.03  # m/s^2
+LEAST_GAIN = 2e-10  # J/kg
+# Slip is removed at once below the limit on a path's error times SLIP_COUNTS, below LEAST_SLIP,
+# or below what friction takes in SLIP_TIME, which is longer than a least step.
+SLIP_COUNTS = 100.0  # 1/s
+LEAST_SLIP = 1e-7  # m/s
+SLIP_TIME = 1e-8  # s
 
 
 @shared
-def curved_segment(model, ball, now):
+def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Plan a step along ground of any form, or lift off where nothing presses.
 
     Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in
@@ -122,11 +126,13 @@ def curved_segment(model, ball, now):
 
 
 @shared
-def press_with_air(model, ball, place, velocity, spin):
+def press_with_air(
+    model: ModelRecord, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
+) -> float:
     """Press [m/s^2] of weight and aerodynamic forces together.
 
     Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be
-    back at once. Elsewhere the air does not act on a ball on the ground.
+    back at once. Elsewhere only moving air acts on a ball on the ground: see `moving_air`.
     """
     _, normal = surfaces.nearest(model.land.ground, ball['support'], place)
     turn = surfaces.turn(model.land.ground, ball['support'], place, velocity)
@@ -135,11 +141,11 @@ def press_with_air(model, ball, place, velocity, spin):
 
 
 @shared
-def step_share_on_ground(land, ball):
-    """Share of the step, 1 or more if it stands, over which its curve stays on the ground to a path's limit.
+def step_share_on_ground(land: Land, ball: BallRecord) -> float:
+    """Share of the step over which its curve stays on the ground, to the limit on a path's error.
 
-    The curve interpolates position, velocity and acceleration at both ends (quintic Hermite), so
-    its error goes with the step's sixth power.
+    It is 1 or more if the step stands. The curve interpolates position, velocity and acceleration
+    at both ends (quintic Hermite), so its error goes with the step's sixth power.
     """
     off = 0.0
     for i in range(1, 4):
@@ -153,7 +159,9 @@ def step_share_on_ground(land, ball):
 
 
 @shared
-def snap_small_motion(land, ball, force, press, grips, now):
+def snap_small_motion(
+    land: Land, ball: BallRecord, force: Vector, press: float, grips: bool, now: float
+) -> None:
     """Remove slip, or the way to a stop, that is too small to count. Writes motion and phase.
 
     Slip is removed by an impulse of grip, which gains no energy.
@@ -162,9 +170,8 @@ def snap_small_motion(land, ball, force, press, grips, now):
     normal = load(ball['normal'])
     r = land.ball.radius
     about = dot(load(ball['spin']), normal)
-    if material_under(land, ball)['pivot_friction'] > 0.0 and abs(about) * r <= slip_limit(
-        land, press
-    ):
+    pivots = material_under(land, ball)['pivot_friction'] > 0.0
+    if pivots and abs(about) * r <= slip_limit(land, press):
         store(ball['spin'], add_scaled(load(ball['spin']), -about, normal))
     if ball['phase'] == SLIDE:
         u = slip(v, load(ball['spin']), normal, r)
@@ -186,13 +193,13 @@ def snap_small_motion(land, ball, force, press, grips, now):
 
 
 @kernel
-def slip_limit(land, press):
+def slip_limit(land: Land, press: float) -> float:
     """Slip [m/s] that is too small to count, of a ball with that `press`."""
     return max(SLIP_COUNTS * land.limits.path, LEAST_SLIP, SLIP_TIME * press)
 
 
 @kernel
-def time_to_unwind(land, ball, press, turn):
+def time_to_unwind(land: Land, ball: BallRecord, press: float, turn: Vector) -> float:
     """Time [s] until pivot friction stops the spin about the normal; infinite where it does not.
 
     A normal that turns changes that spin, too: it may drive it harder than friction brakes.
@@ -208,7 +215,7 @@ def time_to_unwind(land, ball, press, turn):
 
 
 @shared
-def time_to_change(land, ball, force, press):
+def time_to_change(land: Land, ball: BallRecord, force: Vector, press: float) -> float:
     """Estimate of the time [s] until slip ends, or until a braked ball stops."""
     v = load(ball['velocity'])
     material = material_under(land, ball)
@@ -230,7 +237,9 @@ def time_to_change(land, ball, force, press):
 
 
 @shared
-def step_share_to_change(land, ball, v, slipping, holding, held):
+def step_share_to_change(
+    land: Land, ball: BallRecord, v: Vector, slipping: Vector, holding: float, held: float
+) -> float:
     """Share of the step that stays before a discontinuity of the equations, or 1.
 
     ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the
@@ -255,8 +264,8 @@ def step_share_to_change(land, ball, v, slipping, holding, held):
 
 
 @kernel
-def gained(land, ball):
-    """Energy over mass [J/kg] that the ball gains on its segment beside the work of weight and air.
+def gained(land: Land, ball: BallRecord) -> float:
+    """Energy over mass [J/kg] that the ball gains on its segment beside weight's and air's work.
 
     Ground only dissipates: there is a gain where its curvature is discontinuous, as from edge to
     wall, and no stage of the step sees that.
@@ -273,12 +282,17 @@ def gained(land, ball):
         weight, way
     )
     if in_micro_bounces(ball, ball['begin']):
-        gain -= length(load(ball['micro_bounce_air'])) * ball['span'] * max(length(v0), length(v1))
-    return gain
+        push = length(load(ball['micro_bounce_air']))
+    else:
+        push = max(
+            length(moving_air(land.air, land.ground, place, v0, w0)),
+            length(moving_air(land.air, land.ground, add(place, way), v1, w1)),
+        )
+    return gain - push * ball['span'] * max(length(v0), length(v1))
 
 
 @shared
-def project_to_ground(land, ball):
+def project_to_ground(land: Land, ball: BallRecord) -> float:
     """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
     The position is not projected after the shortest of steps: its rounding error far from the
@@ -310,14 +324,14 @@ def project_to_ground(land, ball):
 
 
 @kernel
-def end_velocity(ball):
+def end_velocity(ball: BallRecord) -> Vector:
     """Velocity at the end of the segment."""
     w = ball['position_coefficients']
     return scale(5.0 / ball['span'], sub(load(w[5]), load(w[4])))
 
 
 @kernel
-def slip_at_end(land, ball):
+def slip_at_end(land: Land, ball: BallRecord) -> Vector:
     """Slip of the ball at the end of its segment."""
     place = add_scaled(load(ball['origin']), 1.0, load(ball['position_coefficients'][5]))
     _, normal = supporting_surface(land, ball, place)

@@ -14,9 +14,9 @@
 
 """Sliding, rolling and pivoting on flat ground, in closed form (see coulomb_deceleration.py).
 
-With k the moment of inertia over m r^2 and N the press, slip u obeys u' = g_t - (1 + 1/k) mu N
-u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of sliding is v = v0 + g_t t/(1
-+ k) + k/(1 + k) (u - u0).
+With k the moment of inertia over m r^2 and N the press, slip u obeys
+u' = g_t - (1 + 1/k) mu N u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of
+sliding is v = v0 + g_t t/(1 + k) + k/(1 + k) (u - u0).
 
 Resistance that grows with speed has a closed form on level ground only (straight_rolling.py).
 Where little of it is left it is taken as constant; before that, the equations are integrated
@@ -29,6 +29,7 @@ from .contact_state import in_micro_bounces
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, Vector
 from ..mechanics import coulomb_deceleration
 from ..mechanics.impulse import slip
 from ..mechanics.vector import (
@@ -60,12 +61,17 @@ LONGEST_SEGMENT = 10.0  # s
 UNHURRIED = 0.1
 LEAST_BRAKE = 1e-3  # m/s^2: a ball that is braked less is as good as never stopped
 EVENLY = 6.0  # of a steadily growing acceleration: its rate times time^3 over the way
-LEAST_PATH_ERROR = 1e-12  # m: no curve is asked to be nearer than this to a closed form,
-RELATIVE_ROUNDING = 1e-15  # or than this share of its distance from the origin
+# No curve is asked to be nearer to a closed form than LEAST_PATH_ERROR, or than a share of
+# RELATIVE_ROUNDING of its distance from the origin.
+LEAST_PATH_ERROR = 1e-12  # m
+RELATIVE_ROUNDING = 1e-15
+
+# Velocity at the start, less the share of slip; acceleration; share of slip in the velocity.
+Coast = tuple[Vector, Vector, float]
 
 
 @kernel
-def resists_evenly(land, ball, now):
+def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
     """Whether the ball's resistance changes so little that it may be taken as constant.
 
     That of a ball that slides up to the end of its slip, that of one that rolls up to its stop:
@@ -93,7 +99,7 @@ def resists_evenly(land, ball, now):
 
 
 @kernel
-def even_growth(land, ball, press, v):
+def even_growth(land: Land, ball: BallRecord, press: float, v: Vector) -> float:
     """Deceleration [m/s^2] that stands for what grows with speed until slip, or motion, ends.
 
     Of a ball that slides its value half-way, of one that rolls its mean over the way.
@@ -109,10 +115,10 @@ def even_growth(land, ball, press, v):
 
 
 @shared
-def plane_segment(land, ball, now):
-    """Plan a segment of sliding or rolling on a plane, up to a stop or as far as a Bezier curve is exact.
+def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
+    """Plan a segment of sliding or rolling on a plane.
 
-    Writes curve, ending.
+    It goes up to a stop, or as far as a Bezier curve is exact. Writes curve, ending.
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
@@ -166,7 +172,7 @@ def plane_segment(land, ball, now):
 
 
 @kernel
-def allowed_error(land, ball):
+def allowed_error(land: Land, ball: BallRecord) -> float:
     """Distance [m] by which the segment's curve may be off its closed form."""
     x = ball['position']
     rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
@@ -174,7 +180,7 @@ def allowed_error(land, ball):
 
 
 @kernel
-def glide_end(motion, horizon):
+def glide_end(motion: coulomb_deceleration.Braked, horizon: float) -> float:
     """Parameter at the stop, if it comes within `horizon` [s], else at `horizon`."""
     if (
         coulomb_deceleration.stops(motion)
@@ -185,7 +191,9 @@ def glide_end(motion, horizon):
 
 
 @kernel
-def glide_at(motion, coast, q):
+def glide_at(
+    motion: coulomb_deceleration.Braked, coast: Coast, q: float
+) -> tuple[float, Vector, Vector, Vector]:
     """Time, displacement, velocity and slip (or rolling velocity) at the parameter `q`."""
     time, u, way = coulomb_deceleration.after(motion, q)
     start, drift, share = coast
@@ -195,14 +203,23 @@ def glide_at(motion, coast, q):
 
 
 @kernel
-def glide_error(ball, motion, coast, q):
+def glide_error(
+    ball: BallRecord, motion: coulomb_deceleration.Braked, coast: Coast, q: float
+) -> float:
     """Distance of the segment's curve from the closed form at the parameter `q`."""
     time, way, _, _ = glide_at(motion, coast, q)
     return length(sub(sub(position(ball, time), load(ball['origin'])), way))
 
 
 @kernel
-def fit_glide(land, ball, motion, coast, q, pivot):
+def fit_glide(
+    land: Land,
+    ball: BallRecord,
+    motion: coulomb_deceleration.Braked,
+    coast: Coast,
+    q: float,
+    pivot: tuple[float, float],
+) -> None:
     """Fit the segment to the closed form up to the parameter `q`. Writes curve.
 
     `pivot` is the spin about the normal, and its deceleration.

@@ -26,6 +26,7 @@ from .plane_motion import allowed_error, LONGEST_SEGMENT
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, Vector
 from ..mechanics.vector import add_scaled, cross, dot, length, load, scale, store, sub, unit, ZERO
 from ..state.ball import BALL_STOPS, ROLL, STEP_END
 from ..trajectory.equations_of_motion import (
@@ -37,9 +38,12 @@ from ..trajectory.equations_of_motion import (
 )
 from ..trajectory.segment import fit_segment, position
 
+# Deceleration at rest [m/s^2], and its growth with the square of the speed [1/m].
+Braking = tuple[float, float]
+
 
 @kernel
-def rolls_straight(land, ball, now):
+def rolls_straight(land: Land, ball: BallRecord, now: float) -> bool:
     """Whether the ball rolls on level ground, braked and without micro-bounces."""
     if ball['phase'] != ROLL or in_micro_bounces(ball, now):
         return False
@@ -52,8 +56,11 @@ def rolls_straight(land, ball, now):
 
 
 @shared
-def rolling_segment(land, ball):
-    """Plan a segment up to the stop, or as far as a Bezier curve is exact. Writes curve, ending."""
+def rolling_segment(land: Land, ball: BallRecord) -> None:
+    """Plan a segment up to the stop, or as far as a Bezier curve is exact.
+
+    Writes curve, ending.
+    """
     normal = load(ball['normal'])
     material = material_under(land, ball)
     press, _ = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
@@ -82,7 +89,7 @@ def rolling_segment(land, ball):
 
 
 @kernel
-def rolled_on(ball, braking, time):
+def rolled_on(ball: BallRecord, braking: Braking, time: float) -> tuple[Vector, Vector]:
     """Velocity and displacement of the ball after `time`, which is not after its stop."""
     a, c = braking
     v = load(ball['velocity'])
@@ -93,7 +100,9 @@ def rolled_on(ball, braking, time):
 
 
 @kernel
-def fit_straight(land, ball, braking, time, pivot):
+def fit_straight(
+    land: Land, ball: BallRecord, braking: Braking, time: float, pivot: tuple[float, float]
+) -> None:
     """Fit the segment to the motion up to `time`. Writes curve.
 
     `pivot` is the spin about the normal, and what it loses a second.

@@ -20,40 +20,54 @@ can do without it, or '' if it can't. An idle effect does not run and is not com
 file defines ``dormant(scene)`` too, a record of the same type that does nothing, a compiled
 `World` keeps that instead: so one program serves every course, and nothing compiles when the
 effect is switched on. A file with ``INSTEAD_OF``, names of effects, is another model of the same:
-a scene gets it only by name. Other packages add theirs with :func:`register_effect`.
+a scene gets it only by name. What of an effect may change while balls move is its ``LIVE``, a
+`Live` of :mod:`.protocol`; `record` and `idle` read it by ``scene.live_value``. Other packages add
+their effects with :func:`register_effect`, and such parameters to `LIVE`.
 """
 
 from difflib import get_close_matches
 import importlib
 import inspect
 import pkgutil
-from typing import Callable, NamedTuple, Optional
+from types import MappingProxyType
+from typing import Callable, Iterable, Mapping, NamedTuple, Optional, Sequence, Union
 
 from . import protocol
+from ..geometry.surfaces import Ground, in_cup
 from ..jit import kernel, literal_unroll
+from ..kernel_types import CourseRecord, EffectRecord, Effects, Vector
 from ..mechanics.vector import add, length, sub, ZERO
+
+EffectNames = Union[str, Iterable[str]]  # what is asked for: 'auto', or names
 
 
 class Scene(NamedTuple):
-    """Scene that effects are chosen for: a course, the number of balls, and the wind at 10 m [m/s]."""
+    """Scene that effects are chosen for.
 
-    course: NamedTuple
+    A course, the number of balls, and live parameters by their effects' names.
+    """
+
+    course: CourseRecord
     balls: int = 1
-    wind: tuple = ZERO
+    live: Mapping[str, tuple[float, ...]] = MappingProxyType({})
+
+    def live_value(self, effect: str) -> tuple[float, ...]:
+        """Live parameter of that `effect`, its default where it was not set."""
+        return self.live.get(effect, LIVE[effect].default)
 
 
 class Effect(NamedTuple):
-    """Known effect: how to build its record and its dormant record, and when a scene can do without it.
+    """Known effect: how to build its record and its dormant one, and when a scene needs none.
 
     ``instead_of``: names of the effects to which it is an alternative; such a one is never
     automatic.
     """
 
-    record: Callable
-    idle: Callable
+    record: Callable[[Scene], EffectRecord]
+    idle: Callable[[Scene], str]
     doc: str
-    dormant: Optional[Callable] = None
-    instead_of: tuple = ()
+    dormant: Optional[Callable[[Scene], EffectRecord]] = None
+    instead_of: tuple[str, ...] = ()
 
 
 class Chosen(NamedTuple):
@@ -62,19 +76,20 @@ class Chosen(NamedTuple):
     ``needless``: reasons of those that were asked for by name and that the scene can't have.
     """
 
-    on: dict
-    off: dict
-    needless: dict
+    on: dict[str, EffectRecord]
+    off: dict[str, str]
+    needless: dict[str, str]
 
     @property
-    def records(self):
+    def records(self) -> Effects:
         """Records of the effects that the scene gets."""
         return tuple(self.on.values())
 
-    def with_dormant(self, scene):
-        """`records`, with the dormant record, in its place, of each effect that has one and is off.
+    def with_dormant(self, scene: Scene) -> Effects:
+        """Return `records`, with the dormant one, in its place, of each effect that is off.
 
-        The types are then the same for every scene, but for laws asked for by name.
+        Effects that are off and have none are left out. The types are then the same for every
+        scene, but for laws asked for by name.
         """
         found = (
             (name, self.on.get(name) or effect.dormant and effect.dormant(scene))
@@ -84,17 +99,25 @@ class Chosen(NamedTuple):
         return tuple(record for _, record in found if record)
 
 
-EFFECTS = {}
+EFFECTS: dict[str, Effect] = {}
+LIVE: dict[str, protocol.Live] = {}  # live parameters, by their effects' names
 
 
-def register_effect(name, record, idle, doc, dormant=None, instead_of=()):
+def register_effect(
+    name: str,
+    record: Callable[[Scene], EffectRecord],
+    idle: Callable[[Scene], str],
+    doc: str,
+    dormant: Optional[Callable[[Scene], EffectRecord]] = None,
+    instead_of: Sequence[str] = (),
+) -> None:
     """Register an effect as `name`; see the module's docstring for the other parameters."""
     if name in EFFECTS:
         raise ValueError(f'effect {name!r} is already registered')
     EFFECTS[name] = Effect(record, idle, doc, dormant, tuple(instead_of))
 
 
-def choose(names, scene):
+def choose(names: EffectNames, scene: Scene) -> Chosen:
     """Effects that `scene` gets, and the reasons why it does without the others.
 
     Parameters
@@ -128,9 +151,9 @@ def choose(names, scene):
     return Chosen(on, off, {} if auto else needless(names, scene))
 
 
-def check(names):
+def check(names: Iterable[str]) -> None:
     """Check that `names` are effects that can act together; ValueError where they are not."""
-    laws_of = {}
+    laws_of: dict[str, str] = {}
     for name in names:
         if name == 'auto':
             raise ValueError(
@@ -149,15 +172,17 @@ def check(names):
                 )
 
 
-def needless(names, scene):
-    """Reasons, by name, of those of `names` that `scene` can't have, whatever wind may come."""
-    windy = scene._replace(wind=(1.0, 0.0, 0.0))
-    reasons = {name: EFFECTS[name].idle(windy) for name in names}
+def needless(names: Iterable[str], scene: Scene) -> dict[str, str]:
+    """Reasons, by name, of those of `names` that `scene` can't have, whatever changes in it.
+
+    An effect with a live parameter may be called for at any time.
+    """
+    reasons = {name: EFFECTS[name].idle(scene) for name in names if name not in LIVE}
     return {name: reason for name, reason in reasons.items() if reason}
 
 
 @kernel
-def wind_at(effects, ground, position):
+def wind_at(effects: Effects, ground: Ground, position: Vector) -> Vector:
     """Velocity of the air at `position`."""
     wind = ZERO
     for effect in literal_unroll(effects):
@@ -166,7 +191,7 @@ def wind_at(effects, ground, position):
 
 
 @kernel
-def gravity_at(effects, position):
+def gravity_at(effects: Effects, position: Vector) -> Vector:
     """Gravitational acceleration [m/s^2] of every ball at `position`."""
     total = ZERO
     for effect in literal_unroll(effects):
@@ -175,14 +200,18 @@ def gravity_at(effects, position):
 
 
 @kernel
-def airflow(effects, ground, position, velocity, spin):
+def airflow(
+    effects: Effects, ground: Ground, position: Vector, velocity: Vector, spin: Vector
+) -> protocol.Flow:
     """`Flow` of the air around a ball in flight."""
     through_air = sub(velocity, wind_at(effects, ground, position))
     return protocol.Flow(through_air, length(through_air), spin, position, velocity)
 
 
 @kernel
-def flight_rates(effects, ground, position, velocity, spin):
+def flight_rates(
+    effects: Effects, ground: Ground, position: Vector, velocity: Vector, spin: Vector
+) -> tuple[Vector, Vector]:
     """Acceleration and angular acceleration of a ball in flight."""
     flow = airflow(effects, ground, position, velocity, spin)
     force = ZERO
@@ -196,7 +225,29 @@ def flight_rates(effects, ground, position, velocity, spin):
 
 
 @kernel
-def sinking(effects, position, velocity):
+def moving_air(
+    effects: Effects, ground: Ground, position: Vector, velocity: Vector, spin: Vector
+) -> Vector:
+    """Acceleration of a ball in contact by moving air, less that by still air.
+
+    What still air does to a ball on the ground is in its rolling resistance, as a stimpmeter
+    measures it. In the hole the air is still.
+    """
+    wind = wind_at(effects, ground, position)
+    if wind == ZERO or len(ground.hole) > 0 and in_cup(ground.hole, position):
+        return ZERO
+    through = sub(velocity, wind)
+    blown = protocol.Flow(through, length(through), spin, position, velocity)
+    still = protocol.Flow(velocity, length(velocity), spin, position, velocity)
+    force = ZERO
+    for effect in literal_unroll(effects):
+        more = sub(protocol.acceleration(effect, blown), protocol.acceleration(effect, still))
+        force = add(force, more)
+    return force
+
+
+@kernel
+def sinking(effects: Effects, position: Vector, velocity: Vector) -> Vector:
     """Acceleration of a ball under water."""
     weight = gravity_at(effects, position)
     force = weight
@@ -206,7 +257,13 @@ def sinking(effects, position, velocity):
 
 
 @kernel
-def longest_allowed_step(effects, ground, state, force, wanted):
+def longest_allowed_step(
+    effects: Effects,
+    ground: Ground,
+    state: tuple[Vector, Vector, Vector],
+    force: Vector,
+    wanted: float,
+) -> float:
     """Longest step [s], `wanted` at most, that can't overlook any effect.
 
     For a ball in flight whose `state` is position, velocity and spin, and its acceleration `force`
@@ -219,29 +276,27 @@ def longest_allowed_step(effects, ground, state, force, wanted):
 
 
 @kernel
-def set_wind(effects, wind):
-    """Set the wind [m/s at 10 m]. Writes into the effects' records."""
-    for effect in literal_unroll(effects):
-        protocol.set_wind(effect, wind)
+def effective_normal(
+    effects: Effects, normal: Vector, velocity: Vector, softness: float
+) -> Vector:
+    """Effective contact normal of a ball that hits ground at `velocity`.
 
-
-@kernel
-def effective_normal(effects, normal, velocity, softness):
-    """Effective contact normal of a ball that hits ground of `normal` and `softness` at `velocity`."""
+    The ground has a `normal` and a `softness`.
+    """
     for effect in literal_unroll(effects):
         normal = protocol.contact_normal(effect, normal, velocity, softness)
     return normal
 
 
 @kernel
-def velocity_after(effects, hit, velocity):
+def velocity_after(effects: Effects, hit: protocol.Hit, velocity: Vector) -> Vector:
     """Velocity of a ball after a `hit` that without the effects would leave at `velocity`."""
     for effect in literal_unroll(effects):
         velocity = protocol.departure(effect, hit, velocity)
     return velocity
 
 
-def _discover():
+def _discover() -> None:
     for module in pkgutil.iter_modules(__path__):
         found = importlib.import_module(f'{__name__}.{module.name}')
         if hasattr(found, 'record'):
@@ -249,10 +304,12 @@ def _discover():
                 module.name,
                 found.record,
                 found.idle,
-                inspect.getdoc(found).splitlines()[0],
+                (inspect.getdoc(found) or '').partition('\n')[0],
                 getattr(found, 'dormant', None),
                 getattr(found, 'INSTEAD_OF', ()),
             )
+            if hasattr(found, 'LIVE'):
+                LIVE[module.name] = found.LIVE
 
 
 _discover()

@@ -16,16 +16,18 @@
 
 from typing import NamedTuple
 
+from . import Scene
+
 
 class BallBall(NamedTuple):
-    """Collisions of ball with ball: the engine looks for them where this is on, and not otherwise."""
+    """Collisions of ball with ball: the engine looks for them only where this is on."""
 
 
-def record(scene):
+def record(scene: Scene) -> BallBall:
     """Record for `scene`."""
     return BallBall()
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, a single ball, or ''."""
     return '' if scene.balls > 1 else 'one ball'

@@ -18,65 +18,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import protocol
+from . import protocol, Scene
 from .drag import dynamic_push
+from .protocol import Flow
 from .published import drag_and_lift, spin_axis_terms, spin_ratio
 from ..jit import kernel
+from ..kernel_types import Vector
 from ..mechanics.vector import ZERO
 
 # Aeronautical Quarterly 27 (1976) 112-122, as digitised by others, +-0.008: Re of 1.26e5 to
 # 2.38e5.
-RATIO = (
-    0.02,
-    0.05,
-    0.075,
-    0.10,
-    0.125,
-    0.15,
-    0.175,
-    0.20,
-    0.225,
-    0.25,
-    0.275,
-    0.342,
-    0.46,
-    0.641,
-    1.0,
-)
-DRAG = (
-    0.265,
-    0.264,
-    0.265,
-    0.267,
-    0.276,
-    0.283,
-    0.291,
-    0.299,
-    0.306,
-    0.3125,
-    0.319,
-    0.366,
-    0.391,
-    0.455,
-    0.544,
-)
-LIFT = (
-    0.081,
-    0.111,
-    0.129,
-    0.144,
-    0.159,
-    0.177,
-    0.194,
-    0.211,
-    0.230,
-    0.2465,
-    0.262,
-    0.302,
-    0.352,
-    0.404,
-    0.452,
-)
+# fmt: off
+RATIO = (0.02, 0.05, 0.075, 0.10, 0.125, 0.15, 0.175, 0.20, 0.225, 0.25, 0.275, 0.342, 0.46,
+         0.641, 1.0)
+DRAG = (0.265, 0.264, 0.265, 0.267, 0.276, 0.283, 0.291, 0.299, 0.306, 0.3125, 0.319, 0.366, 0.391,
+        0.455, 0.544)
+LIFT = (0.081, 0.111, 0.129, 0.144, 0.159, 0.177, 0.194, 0.211, 0.230, 0.2465, 0.262, 0.302, 0.352,
+        0.404, 0.452)
+# fmt: on
 
 INSTEAD_OF = ('drag', 'magnus')
 
@@ -93,7 +52,7 @@ class BearmanHarvey1976(NamedTuple):
 
 
 @kernel
-def interpolated(table, s):
+def interpolated(table: np.ndarray, s: float) -> tuple[float, float]:
     """Drag and lift coefficient at `s`: Hermite's cubic between two rows."""
     last = len(table) - 1
     s = min(max(s, table[0, 0]), table[last, 0])
@@ -113,7 +72,7 @@ def interpolated(table, s):
 
 
 @protocol.acceleration.register(BearmanHarvey1976)
-def _acceleration(effect, flow):
+def _acceleration(effect: BearmanHarvey1976, flow: Flow) -> Vector:
     if flow.speed == 0.0:
         return ZERO
     ratio = spin_ratio(effect.radius, flow)
@@ -124,7 +83,7 @@ def _acceleration(effect, flow):
 protocol.longest_step.register(BearmanHarvey1976)(spin_axis_terms)
 
 
-def record(scene):
+def record(scene: Scene) -> BearmanHarvey1976:
     """Record for `scene`."""
     rows = np.array((RATIO, DRAG, LIFT))
     slopes = np.gradient(rows[1:], rows[0], axis=1)
@@ -133,6 +92,6 @@ def record(scene):
     return BearmanHarvey1976(dynamic_push(scene.course), scene.course.ball.radius, table)
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

@@ -16,9 +16,11 @@
 
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from .drag import dynamic_push
+from .protocol import Flow
 from .published import spin_axis_terms
+from ..kernel_types import Vector
 from ..mechanics.vector import length, scale
 
 # Ferguson, McNally, McPhee (2022), doi 10.5703/1288284317493: fitted to radar carry and apex of
@@ -43,7 +45,7 @@ class FergusonDrag(NamedTuple):
 
 
 @protocol.acceleration.register(FergusonDrag)
-def _acceleration(effect, flow):
+def _acceleration(effect: FergusonDrag, flow: Flow) -> Vector:
     if flow.speed == 0.0:
         return 0.0, 0.0, 0.0
     ratio = min(effect.radius * length(flow.spin) / flow.speed, -0.5 * effect.c1 / effect.c2)
@@ -54,11 +56,11 @@ def _acceleration(effect, flow):
 protocol.longest_step.register(FergusonDrag)(spin_axis_terms)
 
 
-def record(scene):
+def record(scene: Scene) -> FergusonDrag:
     """Record for `scene`."""
     return FergusonDrag(dynamic_push(scene.course), scene.course.ball.radius, *FERGUSON_DRAG)
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

@@ -17,9 +17,11 @@
 from math import sqrt
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from .drag import dynamic_push
+from .protocol import Flow
 from .published import FADE, spin_axis_terms
+from ..kernel_types import Vector
 from ..mechanics.vector import cross, length, scale
 
 # Ferguson, McNally, McPhee (2022); see ferguson_drag.py. Held from the vertex of the parabola,
@@ -46,7 +48,7 @@ class FergusonLift(NamedTuple):
 
 
 @protocol.acceleration.register(FergusonLift)
-def _acceleration(effect, flow):
+def _acceleration(effect: FergusonLift, flow: Flow) -> Vector:
     if flow.speed == 0.0:
         return 0.0, 0.0, 0.0
     across = cross(flow.spin, flow.velocity)
@@ -62,11 +64,11 @@ def _acceleration(effect, flow):
 protocol.longest_step.register(FergusonLift)(spin_axis_terms)
 
 
-def record(scene):
+def record(scene: Scene) -> FergusonLift:
     """Record for `scene`."""
     return FergusonLift(dynamic_push(scene.course), scene.course.ball.radius, *FERGUSON_LIFT, FADE)
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

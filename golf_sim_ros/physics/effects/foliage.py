@@ -19,9 +19,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import protocol
+from . import protocol, Scene
+from .protocol import Flow
 from ..geometry.solid import solid_box, Sphere
+from ..geometry.surfaces import Ground
 from ..jit import kernel
+from ..kernel_types import CourseRecord, ShapeRecord, StructRecord, Vector
 from ..mechanics.vector import length, scale, ZERO
 
 LEAF = np.dtype(
@@ -45,7 +48,7 @@ class Foliage(NamedTuple):
 
 
 @kernel
-def clearance(body, point):
+def clearance(body: StructRecord, point: Vector) -> float:
     """Lower bound on the distance of `point` from a body of leaves; 0 or less in it."""
     dx = point[0] - body['center'][0]
     dy = point[1] - body['center'][1]
@@ -57,7 +60,7 @@ def clearance(body, point):
 
 
 @protocol.acceleration.register(Foliage)
-def _acceleration(effect, flow):
+def _acceleration(effect: Foliage, flow: Flow) -> Vector:
     total = 0.0
     for i in range(len(effect.bodies)):
         if clearance(effect.bodies[i], flow.position) < 0.0:
@@ -68,7 +71,9 @@ def _acceleration(effect, flow):
 
 
 @protocol.longest_step.register(Foliage)
-def _longest_step(effect, ground, flow, force, wanted):
+def _longest_step(
+    effect: Foliage, ground: Ground, flow: Flow, force: Vector, wanted: float
+) -> float:
     speed = length(flow.over_ground)
     way = inf
     for i in range(len(effect.bodies)):
@@ -77,12 +82,12 @@ def _longest_step(effect, ground, flow, force, wanted):
     return min(way / speed, wanted) if speed > 0.0 else wanted
 
 
-def leafy(course):
+def leafy(course: CourseRecord) -> list[ShapeRecord]:
     """Obstacles of a course that are leaves."""
     return [shape for shape in course.obstacles if shape.material.drag > 0.0]
 
 
-def record(scene):
+def record(scene: Scene) -> Foliage:
     """Record for `scene`."""
     rows = []
     for shape in leafy(scene.course):
@@ -101,11 +106,11 @@ def record(scene):
     return Foliage(np.array(rows, LEAF))
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no leaves, or ''."""
     return '' if leafy(scene.course) else 'no leaves'
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> Foliage:
     """Record of no leaves: a course with some compiles nothing."""
     return Foliage(np.zeros(0, LEAF))

@@ -16,7 +16,8 @@
 
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
+from ..kernel_types import Vector
 from ..properties.material import STANDARD_GRAVITY
 
 
@@ -27,20 +28,20 @@ class Gravity(NamedTuple):
 
 
 @protocol.gravity.register(Gravity)
-def _gravity(effect, position):
+def _gravity(effect: Gravity, position: Vector) -> Vector:
     return 0.0, 0.0, -effect.g
 
 
-def record(scene):
+def record(scene: Scene) -> Gravity:
     """Record for `scene`."""
     return Gravity()
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect: none, always ''."""
     return ''
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> Gravity:
     """Record of no gravity: a play without it compiles nothing."""
     return Gravity(0.0)

@@ -16,7 +16,9 @@
 
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
+from .protocol import Flow
+from ..kernel_types import Vector
 from ..mechanics.vector import scale
 
 INSTEAD_OF = ('drag',)
@@ -33,15 +35,15 @@ class LinearDrag(NamedTuple):
 
 
 @protocol.acceleration.register(LinearDrag)
-def _acceleration(effect, flow):
+def _acceleration(effect: LinearDrag, flow: Flow) -> Vector:
     return scale(-effect.rate, flow.velocity)
 
 
-def record(scene):
+def record(scene: Scene) -> LinearDrag:
     """Record for `scene`."""
     return LinearDrag()
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

@@ -17,9 +17,12 @@
 from math import sqrt
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from .drag import dynamic_push, NO_FLOW, reynolds_number
+from .protocol import Flow
+from ..geometry.surfaces import Ground
 from ..jit import kernel
+from ..kernel_types import Vector
 from ..mechanics.vector import cross, dot, scale, ZERO
 
 BEND = 0.7  # of `early_at`: within this spin ratio of zero the lift is nearly linear
@@ -35,19 +38,19 @@ class LiftLaw(NamedTuple):
     Reynolds numbers, and one that grows with it. Fitted together with `drag.DragLaw`.
     """
 
-    early: float = 0.06887
+    early: float = 0.07761
     early_at: float = 0.02
-    lost: float = 0.4528
-    slow_at: float = 2.049e5
-    late: float = 0.3455
-    late_at: float = 0.2587
+    lost: float = 0.4113
+    slow_at: float = 1.267e5
+    late: float = 0.3755
+    late_at: float = 0.3335
 
 
 class Magnus(NamedTuple):
     """Lift along spin x velocity by a `law`.
 
-    S is the part of the spin across the velocity, times radius, over speed; `push` is rho A / (2
-    m) [1/m], `reynolds` the Reynolds number at 1 m/s.
+    S is the part of the spin across the velocity, times radius, over speed; `push` is
+    rho A / (2 m) [1/m], `reynolds` the Reynolds number at 1 m/s.
     """
 
     push: float
@@ -57,10 +60,11 @@ class Magnus(NamedTuple):
 
 
 @kernel
-def lift_per_ratio(law, ss, rr, flow=1.0):
-    """Lift coefficient over the spin ratio, at the squares of that, `ss`, and of the Reynolds number, `rr`.
+def lift_per_ratio(law: LiftLaw, ss: float, rr: float, flow: float = 1.0) -> float:
+    """Lift coefficient over the spin ratio, at the squares of that and of the Reynolds number.
 
-    See `LiftLaw`. `ss` may be given times `flow` squared: that spares a division before the roots.
+    These are `ss` and `rr`. See `LiftLaw`. `ss` may be given times `flow` squared: that spares a
+    division before the roots.
     """
     slow = law.slow_at * law.slow_at * law.slow_at * law.slow_at
     sped = slow + rr * rr
@@ -70,7 +74,7 @@ def lift_per_ratio(law, ss, rr, flow=1.0):
 
 
 @protocol.acceleration.register(Magnus)
-def _acceleration(effect, flow):
+def _acceleration(effect: Magnus, flow: Flow) -> Vector:
     vv = dot(flow.velocity, flow.velocity)
     if vv < NO_FLOW or effect.push == 0.0:
         return ZERO
@@ -83,7 +87,9 @@ def _acceleration(effect, flow):
 
 
 @protocol.longest_step.register(Magnus)
-def _longest_step(effect, ground, flow, force, wanted):
+def _longest_step(
+    effect: Magnus, ground: Ground, flow: Flow, force: Vector, wanted: float
+) -> float:
     if effect.push == 0.0:
         return wanted
     # Lift reverses where the velocity passes the axis of spin.
@@ -93,17 +99,17 @@ def _longest_step(effect, ground, flow, force, wanted):
     )
 
 
-def record(scene):
+def record(scene: Scene) -> Magnus:
     """Record for `scene`."""
     course = scene.course
     return Magnus(dynamic_push(course), course.ball.radius, reynolds_number(course), LiftLaw())
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> Magnus:
     """Record that does nothing: a course without air compiles nothing."""
     return record(scene)._replace(push=0.0)

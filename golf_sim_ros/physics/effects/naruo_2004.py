@@ -16,9 +16,11 @@
 
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from .drag import dynamic_push
+from .protocol import Flow
 from .published import drag_and_lift, spin_axis_terms, spin_ratio
+from ..kernel_types import Vector
 from ..mechanics.vector import ZERO
 
 MOST_RATIO = 1.13  # measured for S of 0.03 to this, Re of 7.1e4 to 1.25e5
@@ -38,7 +40,7 @@ class Naruo2004(NamedTuple):
 
 
 @protocol.acceleration.register(Naruo2004)
-def _acceleration(effect, flow):
+def _acceleration(effect: Naruo2004, flow: Flow) -> Vector:
     if flow.speed == 0.0:
         return ZERO
     ratio = spin_ratio(effect.radius, flow)
@@ -51,11 +53,11 @@ def _acceleration(effect, flow):
 protocol.longest_step.register(Naruo2004)(spin_axis_terms)
 
 
-def record(scene):
+def record(scene: Scene) -> Naruo2004:
     """Record for `scene`."""
     return Naruo2004(dynamic_push(scene.course), scene.course.ball.radius)
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

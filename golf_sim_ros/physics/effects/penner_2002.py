@@ -17,9 +17,10 @@
 from math import acos
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from .turf import ANGLE, idle, SPEED, TILT, tilted  # noqa: F401  (idle where turf is)
 from ..jit import kernel
+from ..kernel_types import Vector
 from ..mechanics.vector import dot, length, tangential
 
 INSTEAD_OF = ('turf',)
@@ -37,7 +38,9 @@ class Penner2002(NamedTuple):
 
 
 @protocol.contact_normal.register(Penner2002)
-def _contact_normal(effect, normal, velocity, softness):
+def _contact_normal(
+    effect: Penner2002, normal: Vector, velocity: Vector, softness: float
+) -> Vector:
     across = tangential(velocity, normal)
     if softness == 0.0 or length(across) == 0.0:
         return normal
@@ -45,12 +48,12 @@ def _contact_normal(effect, normal, velocity, softness):
 
 
 @kernel
-def steepness(velocity, normal):
+def steepness(velocity: Vector, normal: Vector) -> float:
     """Speed times angle from the `normal`, which Penner's tilt is proportional to [m/s rad]."""
     speed = length(velocity)
     return speed * acos(min(max(-dot(velocity, normal), 0.0) / speed, 1.0))
 
 
-def record(scene):
+def record(scene: Scene) -> Penner2002:
     """Record for `scene`."""
     return Penner2002()

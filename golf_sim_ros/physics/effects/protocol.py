@@ -19,12 +19,26 @@ its fields are free to change while running.
 """
 
 from math import sqrt
-from typing import NamedTuple
+from typing import Any, Callable, NamedTuple
 
+import numpy as np
+
+from ..geometry.surfaces import Ground
 from ..jit import generic, kernel, shared
+from ..kernel_types import EffectRecord, Vector
 from ..mechanics.vector import dot, ZERO
 
 BRIEF = 2e-3  # s: shorter steps are left to the error control, however suddenly a force reverses
+
+
+class Live(NamedTuple):
+    """Live parameter of an effect: what may change while balls move.
+
+    ``check``: makes a tuple of floats of a value, or raises ValueError; ``default``: such a tuple.
+    """
+
+    check: Callable[[Any], tuple[float, ...]]
+    default: tuple[float, ...]
 
 
 class Flow(NamedTuple):
@@ -34,33 +48,35 @@ class Flow(NamedTuple):
     ``over_ground``: velocity relative to the ground.
     """
 
-    velocity: tuple
+    velocity: Vector
     speed: float
-    spin: tuple
-    position: tuple
-    over_ground: tuple
+    spin: Vector
+    position: Vector
+    over_ground: Vector
 
 
 @generic
-def air_velocity(effect, ground, position):
+def air_velocity(effect: EffectRecord, ground: Ground, position: Vector) -> Vector:
     """Velocity [m/s] that `effect` adds to the air at `position`."""
     return ZERO
 
 
 @generic
-def acceleration(effect, flow):
+def acceleration(effect: EffectRecord, flow: Flow) -> Vector:
     """Acceleration [m/s^2] of a ball in flight by `effect` in `flow`."""
     return ZERO
 
 
 @generic
-def spin_rate(effect, flow):
+def spin_rate(effect: EffectRecord, flow: Flow) -> Vector:
     """Angular acceleration [rad/s^2] of a ball in flight by `effect` in `flow`."""
     return ZERO
 
 
 @generic
-def longest_step(effect, ground, flow, force, wanted):
+def longest_step(
+    effect: EffectRecord, ground: Ground, flow: Flow, force: Vector, wanted: float
+) -> float:
     """Longest step [s], `wanted` at most, that can't overlook `effect`.
 
     Of a ball in `flow` that `force` accelerates [m/s^2].
@@ -69,13 +85,13 @@ def longest_step(effect, ground, flow, force, wanted):
 
 
 @kernel
-def step_to_alignment(arrow, change, blunt, wanted):
-    """Longest step [s] that can't overlook how `arrow`, changed by `change` a second, passes near zero.
+def step_to_alignment(arrow: Vector, change: Vector, blunt: float, wanted: float) -> float:
+    """Longest step [s] that can't overlook how `arrow` passes near zero.
 
-    A force along it reverses there all at once, within `blunt` of its length. To first order the
-    arrow is shortest some time ahead, or was so before, and the force changes within some width of
-    that. A `wanted` step no longer than half of that time, or than the width, is safe: this usual
-    case is tested without division and root.
+    It changes by `change` a second. A force along it reverses there all at once, within `blunt` of
+    its length. To first order the arrow is shortest some time ahead, or was so before, and the
+    force changes within some width of that. A `wanted` step no longer than half of that time, or
+    than the width, is safe: this usual case is tested without division and root.
     """
     turning = dot(change, change)
     closing = -dot(arrow, change)
@@ -90,7 +106,7 @@ def step_to_alignment(arrow, change, blunt, wanted):
 
 
 @shared
-def slowed(turning, closing, off, blunt, wanted):
+def slowed(turning: float, closing: float, off: float, blunt: float, wanted: float) -> float:
     """Step of `step_to_alignment` where it is cut; apart, or its root would be taken each time."""
     ahead = closing / turning
     width = sqrt((max(off - closing * ahead, 0.0) + blunt * blunt) / turning)
@@ -98,20 +114,25 @@ def slowed(turning, closing, off, blunt, wanted):
 
 
 @generic
-def gravity(effect, position):
+def gravity(effect: EffectRecord, position: Vector) -> Vector:
     """Acceleration [m/s^2] by `effect` that acts on every ball, in contact or not."""
     return ZERO
 
 
 @generic
-def under_water(effect, weight, velocity):
+def under_water(effect: EffectRecord, weight: Vector, velocity: Vector) -> Vector:
     """Acceleration [m/s^2] by `effect` of a ball under water, beside `weight`, that by gravity."""
     return ZERO
 
 
 @generic
-def contact_normal(effect, normal, velocity, softness):
-    """Effective contact normal of a ball that hits ground of `normal` and `softness` at `velocity`."""
+def contact_normal(
+    effect: EffectRecord, normal: Vector, velocity: Vector, softness: float
+) -> Vector:
+    """Effective contact normal of a ball that hits ground at `velocity`.
+
+    The ground has a `normal` and a `softness`.
+    """
     return normal
 
 
@@ -131,11 +152,14 @@ class Hit(NamedTuple):
 
 
 @generic
-def departure(effect, hit, velocity):
+def departure(effect: EffectRecord, hit: Hit, velocity: Vector) -> Vector:
     """Velocity [m/s] after a `hit` of a ball that without `effect` would leave at `velocity`."""
     return velocity
 
 
 @generic
-def set_wind(effect, wind):
-    """Set the `wind` [m/s at 10 m] that is in the record of an `effect`, if it holds any."""
+def set_live(effect: EffectRecord, value: np.ndarray) -> None:
+    """Set the live parameter that is in the record of an `effect`, if it holds any.
+
+    For schedules: it changes within a call of the engine.
+    """

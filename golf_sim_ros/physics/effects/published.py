@@ -18,7 +18,10 @@ from math import sqrt
 
 from . import protocol
 from .drag import CREEPING
+from .protocol import Flow
+from ..geometry.surfaces import Ground
 from ..jit import kernel
+from ..kernel_types import EffectRecord, Vector
 from ..mechanics.vector import add, cross, length, scale
 
 # The published laws give lift at no spin, where it has no direction, or let it set in infinitely
@@ -28,13 +31,13 @@ FADE = 0.01
 
 
 @kernel
-def spin_ratio(radius, flow):
+def spin_ratio(radius: float, flow: Flow) -> float:
     """Spin ratio, spin times radius over speed, of the whole spin, as in the published laws."""
     return radius * length(flow.spin) / flow.speed
 
 
 @kernel
-def drag_and_lift(push, flow, ratio, drag, lift):
+def drag_and_lift(push: float, flow: Flow, ratio: float, drag: float, lift: float) -> Vector:
     """Acceleration by coefficients `drag` and `lift` at the spin ratio `ratio`.
 
     `push` is rho A / (2 m).
@@ -48,7 +51,9 @@ def drag_and_lift(push, flow, ratio, drag, lift):
     return add(braking, scale(push * lift * fading * flow.speed * flow.speed / size, across))
 
 
-def spin_axis_terms(effect, ground, flow, force, wanted):
+def spin_axis_terms(
+    effect: EffectRecord, ground: Ground, flow: Flow, force: Vector, wanted: float
+) -> float:
     """Longest step [s] that can't overlook where drag or lift by a published law reverses."""
     blunt = FADE * flow.speed * flow.speed / effect.radius
     wanted = protocol.step_to_alignment(

@@ -17,9 +17,11 @@
 from math import pi, sin
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from .drag import dynamic_push, reynolds_number
+from .protocol import Flow
 from .published import drag_and_lift, spin_axis_terms, spin_ratio
+from ..kernel_types import Vector
 from ..mechanics.vector import ZERO
 
 INSTEAD_OF = ('drag', 'magnus')
@@ -39,7 +41,7 @@ class SmitsSmith1994(NamedTuple):
 
 
 @protocol.acceleration.register(SmitsSmith1994)
-def _acceleration(effect, flow):
+def _acceleration(effect: SmitsSmith1994, flow: Flow) -> Vector:
     if flow.speed == 0.0:
         return ZERO
     ratio = spin_ratio(effect.radius, flow)
@@ -51,12 +53,12 @@ def _acceleration(effect, flow):
 protocol.longest_step.register(SmitsSmith1994)(spin_axis_terms)
 
 
-def record(scene):
+def record(scene: Scene) -> SmitsSmith1994:
     """Record for `scene`."""
     course = scene.course
     return SmitsSmith1994(dynamic_push(course), course.ball.radius, reynolds_number(course))
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'

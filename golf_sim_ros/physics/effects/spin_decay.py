@@ -16,7 +16,9 @@
 
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
+from .protocol import Flow
+from ..kernel_types import Vector
 from ..mechanics.vector import scale, ZERO
 from ..properties import air
 
@@ -32,21 +34,21 @@ class SpinDecay(NamedTuple):
 
 
 @protocol.spin_rate.register(SpinDecay)
-def _spin_rate(effect, flow):
+def _spin_rate(effect: SpinDecay, flow: Flow) -> Vector:
     return scale(-effect.rate * flow.speed, flow.spin) if effect.rate > 0.0 else ZERO
 
 
-def record(scene):
+def record(scene: Scene) -> SpinDecay:
     """Record for `scene`."""
     thickness = air.density(scene.course.air) / SMITS_SMITH_DENSITY
     return SpinDecay(SMITS_SMITH * thickness / scene.course.ball.radius)
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no air, or ''."""
     return '' if scene.course.air.pressure > 0 else 'no air'
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> SpinDecay:
     """Record that does nothing: a course without air compiles nothing."""
     return SpinDecay(0.0)

@@ -34,7 +34,7 @@ is `penner_2002`). Here the tilt
 
 And the bank is of turf, which yields. It brakes a ball, and can do no more:
 
-- It does not throw the ball up. Turf gives back at most (1 + 2 e) / 3 of the normal speed
+- It does not throw the ball up. Of the normal speed turf gives back at most (1 + 2 e) / 3
   (estimate), with its restitution e at that approach, however fast the ball comes along. Haake's
   point gives 0.29 back, and the limit is 0.45 there.
 - It does not throw the ball back. It pushes only as long as the ball moves into it; once friction
@@ -44,8 +44,9 @@ And the bank is of turf, which yields. It brakes a ball, and can do no more:
 from math import cos, pi, sin, sqrt
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
 from ..jit import kernel
+from ..kernel_types import Vector
 from ..mechanics.vector import add, add_scaled, dot, length, scale, tangential, unit, ZERO
 
 TILT = 15.4 * pi / 180
@@ -67,7 +68,7 @@ class Turf(NamedTuple):
 
 
 @protocol.contact_normal.register(Turf)
-def _contact_normal(effect, normal, velocity, softness):
+def _contact_normal(effect: Turf, normal: Vector, velocity: Vector, softness: float) -> Vector:
     across = tangential(velocity, normal)
     along = dot(across, across)
     if softness * effect.rate == 0.0 or along == 0.0:
@@ -81,20 +82,20 @@ def _contact_normal(effect, normal, velocity, softness):
 
 
 @kernel
-def saturated(tilt, most):
+def saturated(tilt: float, most: float) -> float:
     """Saturated `tilt`: itself where it is small, `most` where it is large, smoothly."""
     q = tilt * tilt / (most * most)
     return tilt / sqrt(sqrt(1.0 + q * q))
 
 
 @kernel
-def tilted(normal, across, tilt):
-    """Normal that is `normal` turned by `tilt` [rad] against `across`, a motion along the ground."""
+def tilted(normal: Vector, across: Vector, tilt: float) -> Vector:
+    """Turn `normal` by `tilt` [rad] against `across`, a motion along the ground."""
     return add(scale(cos(tilt), normal), scale(-sin(tilt) / length(across), across))
 
 
 @protocol.departure.register(Turf)
-def _departure(effect, hit, velocity):
+def _departure(effect: Turf, hit: protocol.Hit, velocity: Vector) -> Vector:
     if hit.softness * effect.rate == 0.0:
         return velocity
     ahead = unit(tangential(hit.velocity, hit.normal), ZERO)
@@ -108,17 +109,17 @@ def _departure(effect, hit, velocity):
     return add_scaled(velocity, min(most - dot(velocity, hit.normal), 0.0), hit.normal)
 
 
-def record(scene):
+def record(scene: Scene) -> Turf:
     """Record for `scene`."""
     return Turf()
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, hard ground, or ''."""
     soft = any(shape.material.softness > 0 for shape in scene.course.ground)
     return '' if soft else 'all ground is hard'
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> Turf:
     """Record that tilts nothing: a course of hard ground compiles nothing."""
     return Turf(rate=0.0)

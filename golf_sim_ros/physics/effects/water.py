@@ -17,7 +17,8 @@
 from math import pi
 from typing import NamedTuple
 
-from . import protocol
+from . import protocol, Scene
+from ..kernel_types import Vector
 from ..mechanics.vector import add, length, scale, sub
 from ..properties.water import ADDED_MASS, WATER_DENSITY
 
@@ -39,13 +40,13 @@ class UnderWater(NamedTuple):
 
 
 @protocol.under_water.register(UnderWater)
-def _under_water(effect, weight, velocity):
+def _under_water(effect: UnderWater, weight: Vector, velocity: Vector) -> Vector:
     felt = scale(1.0 - effect.buoyancy, weight)
     drag = scale(-effect.push * length(velocity), velocity)
     return sub(scale(effect.share, add(felt, drag)), weight)
 
 
-def record(scene):
+def record(scene: Scene) -> UnderWater:
     """Record for `scene`."""
     ball = scene.course.ball
     buoyancy = 4.0 / 3.0 * pi * ball.radius**3 * WATER_DENSITY / ball.mass
@@ -53,11 +54,14 @@ def record(scene):
     return UnderWater(float(push), float(buoyancy), float(1.0 / (1.0 + ADDED_MASS * buoyancy)))
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, no water, or ''."""
     return '' if scene.course.water else 'no water'
 
 
-def dormant(scene):
-    """Record where there is no water: no ball ever feels it, and a course with some compiles nothing."""
+def dormant(scene: Scene) -> UnderWater:
+    """Record where there is no water: no ball ever feels it.
+
+    A course with some compiles nothing.
+    """
     return record(scene)

@@ -14,18 +14,21 @@
 
 """Wind that grows with height over the ground."""
 
-from math import log
-from typing import NamedTuple
+from math import isfinite, log
+from typing import Iterable, NamedTuple, Sequence, Union
 
 import numpy as np
 
-from . import protocol
-from ..geometry.surfaces import ground_level
+from . import protocol, Scene
+from .protocol import Flow
+from ..geometry.surfaces import Ground, ground_level
 from ..jit import kernel
+from ..kernel_types import Vector
 from ..mechanics.vector import load, scale, store, ZERO
 
 REFERENCE_HEIGHT = 10.0  # m, where the wind is given (WMO)
 LEAST_WIND = -1  # law of no wind
+MOST_WIND = 100.0  # m/s
 # A step ends at the latest where height over the ground, plus the profile's roughness, has changed
 # by this factor of itself: the steep part of the profile near the ground would be passed before
 # any stage saw it.
@@ -34,7 +37,10 @@ STEEP = 0.01  # m: the roughness of a profile that has none
 
 
 class LogProfile(NamedTuple):
-    """Logarithmic profile u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0), z0 the `roughness` length [m]."""
+    """Logarithmic profile u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0).
+
+    z0 is the `roughness` length [m].
+    """
 
     roughness: float = 0.01
 
@@ -49,12 +55,14 @@ class UniformProfile(NamedTuple):
     """Uniform profile: the same wind at every height."""
 
 
+Profile = Union[LogProfile, PowerProfile, UniformProfile]
+
+
 class Wind(NamedTuple):
     """Wind of `velocity`, an array of 3 [m/s], at 10 m.
 
-    `law` 0 uniform, 1 logarithmic, 2 power, -1 none.
-
-    The law is a number, not a type, so that a course with another law compiles nothing.
+    `law` 0 uniform, 1 logarithmic, 2 power, -1 none. The law is a number, not a type, so that a
+    course with another law compiles nothing.
     """
 
     velocity: np.ndarray
@@ -64,7 +72,7 @@ class Wind(NamedTuple):
 
 
 @kernel
-def share(effect, height):
+def share(effect: Wind, height: float) -> float:
     """Ratio of the wind at `height` [m] to that at 10 m."""
     if effect.law == 1:
         return effect.weight * log(1.0 + max(height, 0.0) / effect.parameter)
@@ -74,13 +82,13 @@ def share(effect, height):
 
 
 @kernel
-def from_ground(ground, position):
+def from_ground(ground: Ground, position: Vector) -> float:
     """Height [m] of `position` over the ground under it."""
     return position[2] - ground_level(ground, position[0], position[1])
 
 
 @protocol.air_velocity.register(Wind)
-def _air_velocity(effect, ground, position):
+def _air_velocity(effect: Wind, ground: Ground, position: Vector) -> Vector:
     if effect.law == LEAST_WIND:
         return ZERO
     above = 0.0 if effect.law == 0 else from_ground(ground, position)
@@ -88,7 +96,7 @@ def _air_velocity(effect, ground, position):
 
 
 @protocol.longest_step.register(Wind)
-def _longest_step(effect, ground, flow, force, wanted):
+def _longest_step(effect: Wind, ground: Ground, flow: Flow, force: Vector, wanted: float) -> float:
     if effect.law == LEAST_WIND or effect.law == 0 or load(effect.velocity) == ZERO:
         return wanted
     bending = max(from_ground(ground, flow.position), 0.0) + (
@@ -97,36 +105,50 @@ def _longest_step(effect, ground, flow, force, wanted):
     return min(max(GROWTH * bending / max(abs(flow.over_ground[2]), 1e-9), protocol.BRIEF), wanted)
 
 
-@protocol.set_wind.register(Wind)
-def _take_wind(effect, wind):
-    store(effect.velocity, wind)
+@protocol.set_live.register(Wind)
+def _set_live(effect: Wind, value: np.ndarray) -> None:
+    store(effect.velocity, load(value))
 
 
-def blowing(profile, velocity):
+def blowing(profile: Profile, velocity: Sequence[float]) -> Wind:
     """`Wind` record of a wind `velocity` [m/s] at 10 m with a `profile`."""
-    velocity = np.array(velocity, float)
+    at_10_m = np.array(velocity, float)
     if isinstance(profile, LogProfile):
         return Wind(
-            velocity,
+            at_10_m,
             1,
             float(profile.roughness),
             1.0 / log(1.0 + REFERENCE_HEIGHT / profile.roughness),
         )
     if isinstance(profile, PowerProfile):
-        return Wind(velocity, 2, float(profile.exponent), 1.0 / REFERENCE_HEIGHT)
-    return Wind(velocity, 0, 1.0, 1.0)
+        return Wind(at_10_m, 2, float(profile.exponent), 1.0 / REFERENCE_HEIGHT)
+    return Wind(at_10_m, 0, 1.0, 1.0)
 
 
-def record(scene):
+def record(scene: Scene) -> Wind:
     """Record for `scene`."""
-    return blowing(scene.course.wind_profile, scene.wind)
+    return blowing(scene.course.wind_profile, scene.live_value('wind'))
 
 
-def idle(scene):
+def idle(scene: Scene) -> str:
     """Reason why `scene` does without the effect, still air, or ''."""
-    return '' if any(scene.wind) else 'no wind'
+    return '' if any(scene.live_value('wind')) else 'no wind'
 
 
-def dormant(scene):
+def dormant(scene: Scene) -> Wind:
     """Record of a wind that does not blow: one that comes up later compiles nothing."""
     return Wind(np.zeros(3), LEAST_WIND, 1.0, 1.0)
+
+
+def checked_wind(wind: Iterable[float]) -> tuple[float, ...]:
+    """Tuple of three floats of `wind`; ValueError where it is not finite or too strong."""
+    wind = tuple(map(float, wind))
+    if len(wind) != 3 or not all(map(isfinite, wind)):
+        raise ValueError(f'wind {wind} is not three finite numbers')
+    if sum(x * x for x in wind) > MOST_WIND * MOST_WIND:
+        raise ValueError(f'wind {wind} is over {MOST_WIND:g} m/s')
+    return wind
+
+
+# velocity of the air 10 m above the ground [m/s]
+LIVE = protocol.Live(checked_wind, ZERO)

@@ -19,16 +19,19 @@ or many shots, compiled code takes a hundredth of that, and has to be compiled f
 machine.
 """
 
+from __future__ import annotations
+
 from functools import lru_cache
 import logging
 import os
 from time import thread_time
-from typing import Callable, NamedTuple
+from typing import Any, Callable, NamedTuple, Optional
 
 from .event_loop import advance
 from .orientation import turn_orientations
 from .planner import put_down
 from .. import jit
+from ..jit import Answer, Function
 from ..jit.build import Build, is_kept, missing, Part, READY
 
 ENGINES = 'auto', 'python', 'compiled'
@@ -43,9 +46,9 @@ class Engine(NamedTuple):
     """Entries of the physics, and whether effects that are off are kept as dormant records."""
 
     name: str
-    advance: Callable
-    turn: Callable
-    put_down: Callable
+    advance: Callable[..., int]
+    turn: Callable[..., None]
+    put_down: Callable[..., tuple[bool, float, bool]]
     keeps_dormant: bool
 
 
@@ -53,17 +56,23 @@ PYTHON = Engine('python', advance, turn_orientations, put_down, False)
 
 
 @lru_cache(maxsize=None)
-def compiled_engine():
+def compiled_engine() -> Engine:
     """Compiled `Engine`; raises `jit.Unavailable` where there is none."""
-    return Engine('compiled', *map(jit.compiled, PYTHON[1:4]), True)
+    return Engine(
+        'compiled',
+        jit.compiled(advance),
+        jit.compiled(turn_orientations),
+        jit.compiled(put_down),
+        True,
+    )
 
 
-def best(function):
+def best(function: Function) -> Function:
     """Compiled function of an entry where numba is installed, else the function itself."""
     return function if missing() else jit.compiled(function)
 
 
-def checked_engine(name):
+def checked_engine(name: str) -> str:
     """`name`, if an engine has it.
 
     For 'auto' the value of the variable GOLF_SIM_ROS_ENGINE, if set.
@@ -80,52 +89,56 @@ def checked_engine(name):
     return name
 
 
-def prefer_compiled():
+def prefer_compiled() -> None:
     """Make 'auto' the compiled engine in this process and its children, where there is one."""
     if not missing():
         os.environ.setdefault(ENGINE_VARIABLE, 'compiled')
 
 
 class Program:
-    """Combination of record types in this process: its build, and what plain Python has cost instead.
+    """Combination of record types in this process: its build, and what Python has cost instead.
 
     `spent`: processor time [s] in plain Python, of worlds whose engine is 'auto'.
     """
 
-    known = {}  # by key
+    known: dict[str, Program] = {}  # by key
 
-    def __init__(self, key):
-        self.key, self.spent, self.build, self.told = key, 0.0, None, False
+    def __init__(self, key: str) -> None:
+        self.key, self.spent, self.told = key, 0.0, False
+        self.build: Optional[Build] = None
 
     @classmethod
-    def of(cls, key):
+    def of(cls, key: str) -> Program:
         """Program with that `key`."""
         return cls.known.setdefault(key, cls(key))
 
     @property
-    def is_kept(self):
+    def is_kept(self) -> bool:
         """Whether it has been compiled and kept on this machine."""
         return is_kept(self.key)
 
     @property
-    def is_ready(self):
+    def is_ready(self) -> bool:
         """Whether its code is compiled and loaded."""
         return self.build is not None and self.build.state == READY
 
-    def built(self, urgent, function, args):
-        """`jit.build.Build` of all that ``function(*args)`` runs, started now unless it has been before."""
+    def built(self, urgent: bool, function: Callable[..., Any], args: tuple[Any, ...]) -> Build:
+        """`jit.build.Build` of all that ``function(*args)`` runs.
+
+        It is started now, unless it has been before.
+        """
         if self.build is None:
             self.build = Build(urgent, Part(self.key, function, args))
         return self.build
 
-    def timed(self, function, *args):
-        """Result of ``function(*args)``, whose processor time is added to `spent`."""
+    def timed(self, function: Callable[..., Answer], *args: Any) -> Answer:
+        """Return ``function(*args)``, whose processor time is added to `spent`."""
         began = thread_time()
         result = function(*args)
         self.spent += thread_time() - began
         return result
 
-    def is_worth_compiling(self):
+    def is_worth_compiling(self) -> bool:
         """Whether plain Python has taken so long that compiling pays.
 
         Warns once if that is impossible.
@@ -135,7 +148,8 @@ class Program:
         if missing():
             self.told = True
             LOG.warning(
-                'plain Python has taken %.0f s; the compiled engine would take a hundredth, but %s',
+                'plain Python has taken %.0f s; the compiled engine would take a hundredth, '
+                'but %s',
                 self.spent,
                 missing(),
             )

@@ -20,6 +20,8 @@ every ball is read at the time asked for. Nothing ever steps to a tick, so paths
 ticks.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from .planner import (
@@ -30,14 +32,16 @@ from .planner import (
     read_segment,
     stop_slip,
 )
-from ..collision import ball_gap, ball_interactions  # noqa: F401  (ball_gap registers laws of ball on ball)
+from ..collision import ball_gap, ball_interactions  # noqa: F401  (ball_gap registers laws)
 from ..collision.workspace import INVOLVED, next_event_ball
 from ..contact.contact_state import choose_contact_mode
-from ..effects import set_wind
+from ..effects import protocol
 from ..geometry import surfaces
+from ..geometry.surfaces import Ground
 from ..jit import borrowed, cycles, entry, kernel, shared
+from ..kernel_types import BallRecord, EffectRecord, ModelRecord, WorkRecord
 from ..mechanics.vector import load, store, unit, ZERO
-from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws of ball on ball)
+from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws)
 from ..response.collision_log import log_out_of_bounds
 from ..response.contact_set import add_to_set, clear_set
 from ..response.ground_impact import cross_border, resolve_ground_impact
@@ -60,7 +64,7 @@ from ..state.ball import (
     WATER,
     WATER_ENTRY,
 )
-from ..state.events import LOST, SHOT_ENDS
+from ..state.events import Log, LOST, SHOT_ENDS
 from ..state.transitions import hole_out, leave_bounds, sink
 from ..trajectory.shot_record import (
     begin_shot,
@@ -80,7 +84,9 @@ EVENTS_A_BALL = 3  # events that one segment's end can log, beside impacts of ba
 
 
 @entry
-def advance(model, balls, until, work, log):
+def advance(
+    model: ModelRecord, balls: np.ndarray, until: float, work: WorkRecord, log: Log
+) -> int:
     """Advance `balls` to the time `until` [s]. Writes balls, work and log.
 
     Returns DONE, or LOG_FULL when `log` must be emptied before going on: it is full, or a shot has
@@ -90,7 +96,9 @@ def advance(model, balls, until, work, log):
 
 
 @shared
-def run_events(model, balls, until, work, log):
+def run_events(
+    model: ModelRecord, balls: np.ndarray, until: float, work: WorkRecord, log: Log
+) -> int:
     """`advance`, with borrowed records. Writes balls, work, log."""
     for i in range(len(balls)):
         work.segment_ends[i] = balls[i]['end']
@@ -124,7 +132,7 @@ def run_events(model, balls, until, work, log):
 
 
 @kernel
-def resolve(model, balls, i, work, log):
+def resolve(model: ModelRecord, balls: np.ndarray, i: int, work: WorkRecord, log: Log) -> None:
     """Bring ball `i` to the end of its segment and resolve the event there. Writes ball, work.
 
     Other balls that this moves become involved. Impacts are logged.
@@ -172,7 +180,7 @@ def resolve(model, balls, i, work, log):
 
 
 @kernel
-def end_if_over(model, ball, number, now, log):
+def end_if_over(model: ModelRecord, ball: BallRecord, number: int, now: float, log: Log) -> None:
     """End the shot of a ball that has stopped, is lost, or is over time. Logs it.
 
     Writes motion, phase, shot.
@@ -184,9 +192,8 @@ def end_if_over(model, ball, number, now, log):
         leave_bounds(ball)
     elif has_ended_in_water(model.land, ball):
         sink(ball)
-    elif before == REST and is_in_hole(
-        model, ball
-    ):  # no speed of capture: it is holed once it rests there
+    elif before == REST and is_in_hole(model, ball):
+        # No speed of capture: it is holed once it rests there.
         hole_out(ball)
     if is_out(model.land.ground, ball, model.land.ball.radius):
         leave_bounds(ball)
@@ -202,10 +209,10 @@ def end_if_over(model, ball, number, now, log):
 
 
 @kernel
-def plan_or_fail(model, ball, number, now, log):
+def plan_or_fail(model: ModelRecord, ball: BallRecord, number: int, now: float, log: Log) -> None:
     """Plan the ball's next segment, or fail its shot if it can't go on.
 
-    Writes segment, integrator, on_flat, contact, phase, motion, shot; logs a failure.
+    Writes segment, integrator, contact, on_flat, phase, motion, shot; logs a failure.
     """
     plan_next_segment(model, ball, now)
     if moves(ball['phase']):
@@ -216,7 +223,7 @@ def plan_or_fail(model, ball, number, now, log):
 
 
 @kernel
-def note_segment(balls, i, radius, work, since):
+def note_segment(balls: np.ndarray, i: int, radius: float, work: WorkRecord, since: int) -> int:
     """Enter ball `i`'s new segment into the workspace. Writes segment_ends, tree, spent.
 
     Takes and returns cycles as `count_cycles` does.
@@ -228,13 +235,13 @@ def note_segment(balls, i, radius, work, since):
 
 
 @kernel
-def stage_of(ball):
+def stage_of(ball: BallRecord) -> int:
     """Stage that a ball's motion belongs to."""
     return IN_FLIGHT if ball['phase'] == FLIGHT else IN_CONTACT
 
 
 @kernel
-def count_cycles(work, stage, since):
+def count_cycles(work: WorkRecord, stage: int, since: int) -> int:
     """Cycles now; those from `since` on are added to a stage, if cycles are measured.
 
     Writes spent.
@@ -247,13 +254,13 @@ def count_cycles(work, stage, since):
 
 
 @entry
-def cycles_now():
+def cycles_now() -> int:
     """Cycles of the processor so far, as in `count_cycles`."""
     return cycles()
 
 
 @kernel
-def limit_by_balls(balls, i, radius, now, work):
+def limit_by_balls(balls: np.ndarray, i: int, radius: float, now: float, work: WorkRecord) -> None:
     """End ball `i`'s segment where it hits another ball.
 
     Writes end, ending, target, segment_ends, tree.
@@ -274,13 +281,13 @@ def limit_by_balls(balls, i, radius, now, work):
 
 
 @kernel
-def is_below_ground(ground, ball, radius):
+def is_below_ground(ground: Ground, ball: BallRecord, radius: float) -> bool:
     """Whether the ball fell below all ground."""
     return ball['water'] == 0 and ball['position'][2] < ground.lowest - 10.0 * radius
 
 
 @kernel
-def is_out(ground, ball, radius):
+def is_out(ground: Ground, ball: BallRecord, radius: float) -> bool:
     """Whether a ball that was struck, or set off by another, has come to rest out of bounds.
 
     It is out if all of it is (Rules of Golf 18.2a(2)); one that is still moving may come back.
@@ -295,24 +302,42 @@ def is_out(ground, ball, radius):
 
 
 @kernel
-def is_in_hole(model, ball):
+def is_in_hole(model: ModelRecord, ball: BallRecord) -> bool:
     """Whether the ball's centre is in the hole."""
     hole = model.land.ground.hole
     return len(hole) > 0 and surfaces.in_cup(hole, load(ball['position']))
 
 
+class Schedule(NamedTuple):
+    """What changes during a shot: a live parameter of the effect of ``record``.
+
+    ``rows``: a time since the strike [s], the first 0, and the values from then on. The record is
+    one of the model's, or shares its arrays.
+    """
+
+    record: EffectRecord
+    rows: np.ndarray
+
+
 @entry
-def play_all(model, ball, strikes, gusts, work, log):
+def play_all(
+    model: ModelRecord,
+    ball: BallRecord,
+    strikes: np.ndarray,
+    schedule: Schedule,
+    work: WorkRecord,
+    log: Log,
+) -> np.ndarray:
     """Play shots one after the other, each from the state in `ball`; their ends, an `ENDED` array.
 
-    `ball` is an array of one; rows of `strikes` are velocity and spin; rows of `gusts` a time
-    since the strike, the first 0, and the wind from then on. Writes work, log.
+    `ball` is an array of one; rows of `strikes` are velocity and spin. Writes work, log.
     """
     model = borrowed(model)
     work = borrowed(work)
     log = borrowed(log)
     strikes = borrowed(strikes)
-    gusts = borrowed(gusts)
+    schedule = borrowed(schedule)
+    rows = schedule.rows
     ends = np.empty(len(strikes), ENDED)
     played = ball.copy()
     one = borrowed(played)
@@ -321,27 +346,27 @@ def play_all(model, ball, strikes, gusts, work, log):
         store(one[0]['velocity'], load(strikes[i, 0:3]))
         store(one[0]['spin'], load(strikes[i, 3:6]))
         begin_shot(one[0], 0.0)
-        set_wind(model.effects, load(gusts[0, 1:4]))
-        gust = 1
+        protocol.set_live(schedule.record, rows[0, 1:])
+        row = 1
         while one[0]['shot_active']:
             log.count[:] = 0
-            # After the last gust up to a time by which every shot has ended.
-            until = gusts[gust, 0] if gust < len(gusts) else LONGEST_SHOT + 1.0
-            if run_events(model, one, until, work, log) == DONE and gust < len(gusts):
-                set_wind(model.effects, load(gusts[gust, 1:4]))
+            # After the last row up to a time by which every shot has ended.
+            until = rows[row, 0] if row < len(rows) else LONGEST_SHOT + 1.0
+            if run_events(model, one, until, work, log) == DONE and row < len(rows):
+                protocol.set_live(schedule.record, rows[row, 1:])
                 end_now(one[0], until)
-                gust += 1
+                row += 1
         copy_result(one[0], ends[i])
     return ends
 
 
 @kernel
-def end_now(ball, now):
-    """End a flying ball's segment at `now`, since its surroundings have changed.
+def end_now(ball: BallRecord, now: float) -> None:
+    """End a moving ball's segment at `now`, since its surroundings have changed.
 
     Writes end, ending, last_stage_time. The last stage holds rates in the old surroundings.
     """
-    if ball['phase'] == FLIGHT:
+    if moves(ball['phase']):
         ball['end'] = now
         ball['ending'] = STEP_END
         ball['last_stage_time'] = -1.0

@@ -16,6 +16,8 @@
 
 from math import cos, sin, sqrt
 
+import numpy as np
+
 from ..jit import entry
 from ..state.ball import moves
 
@@ -23,7 +25,7 @@ UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 
 @entry
-def turn_orientations(orientations, balls, time):
+def turn_orientations(orientations: np.ndarray, balls: np.ndarray, time: float) -> None:
     """Turn the orientations of the `balls` that move by `time` [s] of their present spin.
 
     Writes orientations. They are (n, 4), quaternions x, y, z, w: products of the rotation and what

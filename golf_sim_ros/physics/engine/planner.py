@@ -30,6 +30,7 @@ from ..collision.water_entry import first_water_entry
 from ..contact.contact_state import (
     contact_material_number,
     heading,
+    in_micro_bounces,
     remove_slip,
     set_support,
     touch_down,
@@ -37,11 +38,12 @@ from ..contact.contact_state import (
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment, resists_evenly
 from ..contact.straight_rolling import rolling_segment, rolls_straight
-from ..effects import flight_rates, gravity_at
+from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..geometry.water_surface import water_at
 from ..integrators import step
 from ..jit import borrowed, entry, kernel, shared
+from ..kernel_types import BallRecord, Land, ModelRecord, Vector
 from ..mechanics.vector import (
     add_scaled,
     cross,
@@ -75,20 +77,21 @@ from ..trajectory import segment
 from ..trajectory.equations_of_motion import LEAST_SPEED
 
 LONGEST_SHOT = 300.0  # s
-# segments of zero length in a row, after which every second one lasts for a MOMENT,
+# After so many segments of zero length in a row every second one lasts for a MOMENT. That grows,
+# if they go on, until the ball may move by the limit on a path's error, or by LEAST_STRAY.
 MANY_ZERO_LENGTH = 100
-MOMENT = 1e-9  # s, growing if that goes on until the ball may move by the limit on a path's error,
-LEAST_STRAY = 1.5e-7  # m, or by this
+MOMENT = 1e-9  # s
+LEAST_STRAY = 1.5e-7  # m
 LEAST_PRESS = 0.1  # of the weight: the least that lift leaves of it during micro-bounces
 # s: longest segment under water, at whose end the ball may turn out to have sunk
 SINKING_STEP = 0.02
 
 
 @kernel
-def plan_next_segment(model, ball, now):
+def plan_next_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Plan the ball's next segment from its state at `now`, up to its first event.
 
-    Writes segment, integrator, segments_spent, zero_length_segments, on_flat, contact, phase,
+    Writes segment, integrator, segments_spent, zero_length_segments, contact, on_flat, phase,
     motion. The last four change only where contact does.
     """
     ball['begin'] = now
@@ -113,7 +116,7 @@ def plan_next_segment(model, ball, now):
 
 
 @kernel
-def flight_segment(model, ball, now):
+def flight_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Plan a segment of flight: a step of the integrator, of a time-stepped ball a straight line.
 
     Writes curve, ending, integrator.
@@ -125,8 +128,8 @@ def flight_segment(model, ball, now):
 
 
 @kernel
-def span_to_solve(ball, now):
-    """Span of the segment, cut to the time at which the ball's contacts are solved, if they are."""
+def span_to_solve(ball: BallRecord, now: float) -> float:
+    """Span of the segment, cut to when the ball's contacts are solved, if they are."""
     if ball['time_stepping']:
         return min(ball['span'], next_step_time(now) - now)
     if is_wedged(ball):
@@ -135,7 +138,7 @@ def span_to_solve(ball, now):
 
 
 @kernel
-def limit_by_ground(model, ball, until, on):
+def limit_by_ground(model: ModelRecord, ball: BallRecord, until: float, on: int) -> float:
     """First time, at most `until`, of a border or an impact with the ground.
 
     Writes ending, target, segments_spent.
@@ -167,7 +170,7 @@ def limit_by_ground(model, ball, until, on):
 
 
 @kernel
-def limit_by_water(model, ball, until):
+def limit_by_water(model: ModelRecord, ball: BallRecord, until: float) -> float:
     """First time, at most `until`, of an entry into water, or of a look at a sinking ball.
 
     Writes ending, target.
@@ -185,7 +188,7 @@ def limit_by_water(model, ball, until):
 
 
 @kernel
-def end_segment(model, ball, now, until):
+def end_segment(model: ModelRecord, ball: BallRecord, now: float, until: float) -> None:
     """End the segment `until` after `now`, or at a time limit.
 
     Writes end, ending, zero_length_segments.
@@ -212,12 +215,11 @@ def end_segment(model, ball, now, until):
 
 
 @shared
-def contact_segment(model, ball, now):
+def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     """Plan a segment of a ball in contact; what it is on, such as ON_FLAT.
 
-    Writes motion, phase, contact, on_flat, curve, ending, integrator, segments_spent.
-
-    The ball may turn out to lift off.
+    The ball may turn out to lift off. Writes motion, phase, contact, on_flat, curve, ending,
+    integrator, segments_spent.
     """
     land = model.land
     is_flat = surfaces.flat_under(land.ground, ball['support'], load(ball['position']))
@@ -231,7 +233,9 @@ def contact_segment(model, ball, now):
     goes_on = flat_ground_goes_on(land, ball)
     ball['on_flat'] = 1 if goes_on else 0
     if goes_on:
-        if resists_evenly(land, ball, now):  # in closed form
+        if not is_in_still_air(land, ball, now):
+            curved_segment(model, ball, now)
+        elif resists_evenly(land, ball, now):  # in closed form
             plane_segment(land, ball, now)
         elif rolls_straight(land, ball, now):
             rolling_segment(land, ball)
@@ -243,8 +247,15 @@ def contact_segment(model, ball, now):
     return ON_CURVE if surfaces.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
 
 
+@kernel
+def is_in_still_air(land: Land, ball: BallRecord, now: float) -> bool:
+    """Whether no moving air pushes a ball in contact, beside what micro-bounces have of it."""
+    state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
+    return in_micro_bounces(ball, now) or moving_air(land.air, land.ground, *state) == ZERO
+
+
 @shared
-def apply_air_to_micro_bounces(model, ball, now):
+def apply_air_to_micro_bounces(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Apply the air to micro-bounces. Writes micro_bounces, velocity, spin.
 
     Drag and torque act for their whole duration; lift makes them last longer and press less.
@@ -267,7 +278,7 @@ def apply_air_to_micro_bounces(model, ball, now):
 
 
 @kernel
-def flat_ground_goes_on(land, ball):
+def flat_ground_goes_on(land: Land, ball: BallRecord) -> bool:
     """Whether flat ground continues under the ball where it is heading."""
     ahead = add_scaled(load(ball['position']), surfaces.LOOK_AHEAD, heading(land, ball))
     return surfaces.flat_under(land.ground, ball['support'], ahead) and surfaces.touchable(
@@ -276,7 +287,7 @@ def flat_ground_goes_on(land, ball):
 
 
 @kernel
-def launch(model, ball, now):
+def launch(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Choose whether a ball sets off in flight or along the ground.
 
     Writes phase, step, velocity, spin, pile, water, micro_bounce_end.
@@ -292,7 +303,9 @@ def launch(model, ball, now):
 
 
 @entry
-def put_down(model, ball, position, depth):
+def put_down(
+    model: ModelRecord, ball: BallRecord, position: Vector, depth: float
+) -> tuple[bool, float, bool]:
     """Put a ball down at `position`, lowered along z by at most `depth` until it touches.
 
     The ball is at rest. Returns whether it touches anything, how deep [m] it lies in the ground,
@@ -326,7 +339,7 @@ def put_down(model, ball, position, depth):
 
 
 @kernel
-def read_segment(ball, now):
+def read_segment(ball: BallRecord, now: float) -> None:
     """Bring the ball to where it is at `now`, on its present segment. Writes motion."""
     if moves(ball['phase']) and now > ball['begin']:
         time = now - ball['begin']
@@ -336,7 +349,7 @@ def read_segment(ball, now):
 
 
 @kernel
-def stop_slip(model, ball):
+def stop_slip(model: ModelRecord, ball: BallRecord) -> None:
     """Give the ball exactly the spin of rolling, at the event that ends its slip.
 
     Writes spin, phase.

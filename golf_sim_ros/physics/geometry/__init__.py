@@ -24,13 +24,16 @@ without it comes last.
 
 import importlib
 import pkgutil
+from typing import Any, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from .polygon import Circle, polygons, regions, sides
+from .polygon import Circle, Outline, polygons, regions, sides
 from .surfaces import BORDER, Ground
-from .water_surface import waters
-from .zone import zones_of
+from .water_surface import Water, waters
+from .zone import Zone, zones_of
+from ..kernel_types import ShapeRecord
+from ..properties.material import Material
 
 _MODULES = [
     importlib.import_module(f'{__name__}.{module.name}')
@@ -42,7 +45,14 @@ KINDS = sorted(
 )
 
 
-def build(shapes, zones, bounds, hole, material_number, water=()):
+def build(
+    shapes: Sequence[ShapeRecord],
+    zones: Iterable[Union[Zone, tuple[Any, ...]]],
+    bounds: Optional[Outline],
+    hole: Optional[Sequence[float]],
+    material_number: Mapping[Material, int],
+    water: Sequence[Water] = (),
+) -> Ground:
     """`Ground` of `shapes`, ground and obstacles.
 
     Parameters
@@ -70,15 +80,15 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
     by_kind = [(kind, [s for s in shapes if isinstance(s, kind.SHAPES)]) for kind in KINDS]
     kinds = tuple(kind.build(own, material_number) for kind, own in by_kind)
     outlines = [o for kind, own in by_kind for s in own for o in kind.plan(s)]
-    zones = zones_of(zones)
-    outlines += [outline for zone in zones for outline in (zone.polygon, *zone.cut)]
+    painted = zones_of(zones)
+    outlines += [outline for zone in painted for outline in (zone.polygon, *zone.cut)]
     heights = [kind.heights(s) for kind, own in by_kind for s in own]
     heights += [(pond.level, pond.level) for pond in water]
     return Ground(
         kinds,
         _borders(outlines),
-        regions([zone.polygon for zone in zones], [zone.cut for zone in zones]),
-        np.array([material_number[zone.material] for zone in zones], np.int64),
+        regions([zone.polygon for zone in painted], [zone.cut for zone in painted]),
+        np.array([material_number[zone.material] for zone in painted], np.int64),
         polygons([bounds] if bounds else []),
         np.array(hole or (), float),
         waters(water),
@@ -87,7 +97,7 @@ def build(shapes, zones, bounds, hole, material_number, water=()):
     )
 
 
-def extent(shape):
+def extent(shape: ShapeRecord) -> tuple[np.ndarray, np.ndarray]:
     """Corners (x, y) of the rectangle around the outlines of `shape` in plan."""
     kind = next(kind for kind in KINDS if isinstance(shape, kind.SHAPES))
     places = [
@@ -105,14 +115,14 @@ def extent(shape):
     return np.min(places, 0), np.max(places, 0)
 
 
-def _borders(outlines):
-    rows = []
+def _borders(outlines: Iterable[Union[Outline, Circle]]) -> np.ndarray:
+    rows: list[tuple[Any, ...]] = []
     for outline in outlines:
         if isinstance(outline, Circle):
             rows.append(((outline.x, outline.y), (1.0, 0.0), 0.0, outline.radius))
             continue
-        for start, end in sides(outline):
-            start, end = np.asarray(start, float), np.asarray(end, float)
+        for corners in sides(outline):
+            start, end = np.asarray(corners, float)
             size = np.linalg.norm(end - start)
             if size > 1e-9:  # an upright patch has no width in plan
                 rows.append((start, (end - start) / size, size, 0.0))

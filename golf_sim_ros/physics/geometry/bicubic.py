@@ -25,8 +25,9 @@ from math import floor
 import numpy as np
 
 from ..jit import kernel, shared
+from ..kernel_types import StructRecord, SurfacePoint, Vector
 
-# rows of cells that are bounded at once: on a map of 1000 x 1000 those take some 50 MB
+# Rows of cells that are bounded at once: on a map of 1000 x 1000 those take some 50 MB.
 AT_ONCE = 64
 
 GRID = np.dtype(
@@ -48,11 +49,11 @@ GRID = np.dtype(
 )
 
 
-def slopes(values):
+def slopes(values: np.ndarray) -> np.ndarray:
     """Slopes, per grid step, of the natural cubic splines through the columns of `values`.
 
-    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends 2 s[0] + s[1] = 3 (y[1]
-    - y[0]): a tridiagonal system, by Thomas's algorithm.
+    They solve s[i-1] + 4 s[i] + s[i+1] = 3 (y[i+1] - y[i-1]), at the ends
+    2 s[0] + s[1] = 3 (y[1] - y[0]): a tridiagonal system, by Thomas's algorithm.
     """
     n = len(values)
     rise = np.diff(values, axis=0)
@@ -68,13 +69,13 @@ def slopes(values):
     return right
 
 
-def nodes(heights):
-    """Node values: heights and their derivatives by x, by y and by both, per grid step: (ny, nx, 4)."""
+def nodes(heights: np.ndarray) -> np.ndarray:
+    """Node values, (ny, nx, 4): heights and derivatives by x, by y and by both, per grid step."""
     by_x = slopes(heights.T).T
     return np.stack((heights, by_x, slopes(heights), slopes(by_x)), -1)
 
 
-def bounds(at_nodes, spacing):
+def bounds(at_nodes: np.ndarray, spacing: float) -> np.ndarray:
     """Bounds on height [m] and curvature [1/m] over every cell: (ny - 1, nx - 1, 4).
 
     In order: least height, greatest height, greatest upward curvature (0 where there is none),
@@ -82,16 +83,16 @@ def bounds(at_nodes, spacing):
     """
     return np.concatenate(
         [
-            _bounds(at_nodes[j : j + AT_ONCE + 1], spacing)
-            for j in range(0, len(at_nodes) - 1, AT_ONCE)
+            _bounds(at_nodes[first:][: AT_ONCE + 1], spacing)
+            for first in range(0, len(at_nodes) - 1, AT_ONCE)
         ]
     )
 
 
-def _bounds(at, spacing):
-    # Bezier's ordinates along x of heights and of slopes along y, then both along y: (4, 4, ny -
-    # 1, nx - 1).
-    def along_x(value, slope):
+def _bounds(at: np.ndarray, spacing: float) -> np.ndarray:
+    # Bezier's ordinates along x of heights and of slopes along y, then both along y:
+    # (4, 4, ny - 1, nx - 1).
+    def along_x(value: np.ndarray, slope: np.ndarray) -> np.ndarray:
         left, right = np.s_[:, :-1], np.s_[:, 1:]
         third = slope / 3
         return np.stack(
@@ -113,13 +114,16 @@ def _bounds(at, spacing):
     )
 
 
-def _greatest(xx, yy, xy):
-    """Greatest eigenvalue of a symmetric matrix: it grows with each entry, so bounds give a bound."""
+def _greatest(xx: np.ndarray, yy: np.ndarray, xy: np.ndarray) -> np.ndarray:
+    """Greatest eigenvalue of a symmetric matrix.
+
+    It grows with each entry, so bounds give a bound.
+    """
     return 0.5 * (xx + yy) + np.sqrt(0.25 * (xx - yy) ** 2 + xy * xy)
 
 
 @kernel
-def hermite(start, slope, end, end_slope, t):
+def hermite(start: float, slope: float, end: float, end_slope: float, t: float) -> Vector:
     """Value, first and second derivative at `t` of a cubic Hermite curve over 0 to 1."""
     rise = end - start
     c2 = 3.0 * rise - 2.0 * slope - end_slope
@@ -132,7 +136,7 @@ def hermite(start, slope, end, end_slope, t):
 
 
 @kernel
-def cell_at(grid, x, y):
+def cell_at(grid: StructRecord, x: float, y: float) -> tuple[int, int]:
     """Column and row of the cell at `x`, `y` [m] from the grid's origin, or of the nearest one."""
     column = min(max(int(floor(x / grid['spacing'])), 0), grid['nx'] - 1)
     row = min(max(int(floor(y / grid['spacing'])), 0), grid['ny'] - 1)
@@ -140,7 +144,7 @@ def cell_at(grid, x, y):
 
 
 @shared
-def bicubic(table, grid, x, y):
+def bicubic(table: np.ndarray, grid: StructRecord, x: float, y: float) -> SurfacePoint:
     """Height at `x`, `y` [m] from the grid's origin, its derivatives by x, y, xx, xy and yy."""
     size = grid['spacing']
     column, row = cell_at(grid, x, y)

@@ -31,11 +31,11 @@ BVH_NODE = np.dtype(
 )
 
 
-def hierarchy(low, high):
-    """Nodes of a BVH over the boxes from `low` to `high`, both (n, 3), and the boxes' order depth first.
+def hierarchy(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes of a BVH over the boxes from `low` to `high`, both (n, 3).
 
-    In that order a leaf holds ``first`` to ``last``, any other node none; ``skip`` is the number
-    of the node after its subtree.
+    Also the boxes' order, depth first. In that order a leaf holds ``first`` to ``last``, any other
+    node none; ``skip`` is the number of the node after its subtree.
     """
     count = len(low)
     if count == 0:
@@ -64,8 +64,8 @@ def hierarchy(low, high):
     return nodes, rows[rows >= 0]
 
 
-def halved(rows, middle, axis):
-    """Halves of each of `rows`, split at the median of its boxes' `middle` along its own `axis`."""
+def halved(rows: np.ndarray, middle: np.ndarray, axis: np.ndarray) -> np.ndarray:
+    """Halves of each of `rows`, split at its boxes' median `middle` along its own `axis`."""
     keys = middle[rows, axis[:, np.newaxis]]
     # Stable, or the order of equal keys, and with it the numbers of parts, would depend on the
     # processor.

@@ -19,25 +19,34 @@ border, and driven over it, stays there (active set). Coordinates are metres fro
 origin.
 """
 
+import numpy as np
+
 from .bicubic import bicubic
 from ..jit import kernel, shared
+from ..kernel_types import Rectangle, StructRecord, SurfacePoint, Vector
 
 MOST_NEWTON_STEPS = 60
 CONVERGED_STEP = 1e-13  # of the spacing: shorter steps change nothing
-# of the spacing: shorter steps are taken without line search, whose test would be rounding
+# Of the spacing: shorter steps are taken without line search, whose test would be rounding.
 SURE = 1e-6
 START_SAMPLES = 5  # a side, to start from where there may be several local minima
+Samples = tuple[float, float, float, float, float]  # of a row of START_SAMPLES
 NO_SAMPLES = (1e300, 1e300, 1e300, 1e300, 1e300)
 
 
 @kernel
-def held(x, low, high, pull):
-    """Whether a coordinate is at a bound over which `pull`, the derivative there, drives it: active."""
+def held(x: float, low: float, high: float, pull: float) -> bool:
+    """Whether a coordinate is at a bound over which `pull` drives it: active.
+
+    `pull` is the derivative there.
+    """
     return x <= low and pull >= 0.0 or x >= high and pull <= 0.0
 
 
 @shared
-def newton(hessian, gradient, fixed_x, fixed_y):
+def newton(
+    hessian: Vector, gradient: tuple[float, float], fixed_x: bool, fixed_y: bool
+) -> tuple[float, float]:
     """Newton step for a gradient, by x and y, and a Hessian, by xx, xy and yy.
 
     A fixed coordinate stays.
@@ -55,7 +64,7 @@ def newton(hessian, gradient, fixed_x, fixed_y):
 
 
 @kernel
-def share_within(x, step, low, high):
+def share_within(x: float, step: float, low: float, high: float) -> float:
     """Share of `step` from `x` that stays between `low` and `high`."""
     if x + step > high:
         return (high - x) / step
@@ -65,7 +74,7 @@ def share_within(x, step, low, high):
 
 
 @kernel
-def half_square(point, x, y, z):
+def half_square(point: Vector, x: float, y: float, z: float) -> float:
     """Half the squared distance of `point` from x, y, z."""
     dx = x - point[0]
     dy = y - point[1]
@@ -74,7 +83,7 @@ def half_square(point, x, y, z):
 
 
 @kernel
-def curvatures(point, at):
+def curvatures(point: Vector, at: SurfacePoint) -> Vector:
     """Hessian of half the squared distance: by xx, xy and yy."""
     z, zx, zy, zxx, zxy, zyy = at
     up = z - point[2]
@@ -82,14 +91,16 @@ def curvatures(point, at):
 
 
 @kernel
-def pulls(point, x, y, at):
+def pulls(point: Vector, x: float, y: float, at: SurfacePoint) -> tuple[float, float]:
     """Gradient of half the squared distance, by x and y."""
     up = at[0] - point[2]
     return x - point[0] + up * at[1], y - point[1] + up * at[2]
 
 
 @shared
-def descend(table, grid, box, x, y, point):
+def descend(
+    table: np.ndarray, grid: StructRecord, box: Rectangle, x: float, y: float, point: Vector
+) -> tuple[float, float, SurfacePoint]:
     """Local minimum of the distance from `point`, downhill from `x`, `y`, and `bicubic` there."""
     x0, y0, x1, y1 = box
     size = grid['spacing']
@@ -135,7 +146,7 @@ def descend(table, grid, box, x, y, point):
 
 
 @kernel
-def onto(x, low, high, size):
+def onto(x: float, low: float, high: float, size: float) -> float:
     """Clamp `x` between `low` and `high`, and snap it to one that is reached but for rounding."""
     if x - low < CONVERGED_STEP * size:
         return low
@@ -145,7 +156,9 @@ def onto(x, low, high, size):
 
 
 @shared
-def closest_point(table, grid, box, bend, point):
+def closest_point(
+    table: np.ndarray, grid: StructRecord, box: Rectangle, bend: float, point: Vector
+) -> tuple[float, float, SurfacePoint]:
     """Closest point of the surface to `point` in the rectangle `box`, and `bicubic` there.
 
     Where `bend`, a product of curvature and height, is below 1, the distance has one minimum; else
@@ -189,7 +202,9 @@ def closest_point(table, grid, box, bend, point):
 
 
 @shared
-def samples(table, grid, box, point, i):
+def samples(
+    table: np.ndarray, grid: StructRecord, box: Rectangle, point: Vector, i: int
+) -> Samples:
     """Half the squared distances of `point` from row `i` of the samples, as a tuple."""
     x0, y0, x1, y1 = box
     x = x0 + (x1 - x0) * i / (START_SAMPLES - 1.0)
@@ -204,6 +219,6 @@ def samples(table, grid, box, point, i):
 
 
 @shared
-def sample(table, grid, point, x, y):
+def sample(table: np.ndarray, grid: StructRecord, point: Vector, x: float, y: float) -> float:
     """Half the squared distance of `point` from the surface at `x`, `y`."""
     return half_square(point, x, y, bicubic(table, grid, x, y)[0])

@@ -12,26 +12,30 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Cup of the hole: a rim that follows the ground around it, an upright wall below, a level bottom.
+r"""Cup of the hole: a rim along the ground around it, an upright wall below, a level bottom.
 
-Parts come in pairs: the side, rim and wall in one, hit from within and above; and the bottom. ::
+Parts come in pairs: the side, rim and wall in one, hit from within and above; and the bottom.
 
-    ground ____.  rim                .____       z(phi) = a0 + a1 cos + b1 sin + a2 cos 2 phi + b2 sin 2 phi
-               |\\                   /|
-               | n                 n |           over the wall's top the rim is nearest, below it the wall
-               |wall                 |
-               '------- bottom ------'
+::
+
+    ground ____.  rim                .____   height of the rim, at the angle phi:
+               |\                   /|           a0 + a1 cos + b1 sin
+               | n                 n |           + a2 cos 2 phi + b2 sin 2 phi
+               |wall                 |       over the wall's top the rim is nearest,
+               '------- bottom ------'       below it the wall
 """
 
 from math import atan2, cos, hypot, pi, sin, sqrt
-from typing import NamedTuple
+from typing import Mapping, NamedTuple, Sequence
 
 import numpy as np
 
 from . import surface_protocol, surfaces
 from .plane_patch import meets, PLANE_ROUNDING, SAME_HEIGHT
 from .polygon import Circle
+from .surfaces import Ground
 from ..jit import kernel
+from ..kernel_types import StructRecord, Vector
 from ..mechanics.vector import add_scaled, dot, length, scale, sub, tangential
 from ..properties.material import Material, Restitution
 
@@ -72,7 +76,7 @@ class Cup(NamedTuple):
 
     x: float
     y: float
-    rim: tuple
+    rim: tuple[float, float, float, float, float]
     side: Material
     material: Material = CUP_MATERIAL
     depth: float = DEPTH
@@ -85,7 +89,9 @@ class Cups(NamedTuple):
     cups: np.ndarray
 
 
-def cup_in(ground, x, y, names, material):
+def cup_in(
+    ground: Ground, x: float, y: float, names: Sequence[Material], material: Material
+) -> Cup:
     """`Cup` at `x`, `y` with a rim along `ground`, a `Ground` without hole.
 
     `names` are the materials by number; rim and wall are of the ground's, the bottom of
@@ -117,23 +123,27 @@ def cup_in(ground, x, y, names, material):
         raise ValueError(
             f'hole ({x:g}, {y:g}) must have ground all round that is even to {UNEVEN:g} m'
         )
-    return Cup(float(x), float(y), tuple(rim.tolist()), names[found[0][2]], material)
+    a0, a1, b1, a2, b2 = rim.tolist()
+    return Cup(float(x), float(y), (a0, a1, b1, a2, b2), names[found[0][2]], material)
 
 
-def heights_of_rim(cup):
+def heights_of_rim(cup: Cup) -> tuple[float, float]:
     """Bounds on the height of a cup's rim, exact where the rim lies in a plane."""
     a0, a1, b1, a2, b2 = cup.rim
     reach = hypot(a1, b1) + hypot(a2, b2)
     return a0 - reach, a0 + reach
 
 
-def opening(cup):
-    """Opening of a cup, as in `Ground.hole`: x, y, radius, bounds of the rim's height, bottom's height."""
+def opening(cup: Cup) -> tuple[float, float, float, float, float, float]:
+    """Give the opening of a cup, as in `Ground.hole`.
+
+    x, y, radius, bounds of the rim's height, height of the bottom.
+    """
     lowest, highest = heights_of_rim(cup)
     return cup.x, cup.y, cup.radius, lowest, highest, lowest - cup.depth
 
 
-def build(shapes, material_number):
+def build(shapes: Sequence[Cup], material_number: Mapping[Material, int]) -> Cups:
     """`Cups` of `Cup` records; `material_number` maps a material to its row."""
     rows = []
     for cup in shapes:
@@ -157,26 +167,26 @@ def build(shapes, material_number):
     return Cups(np.array(rows, CUPS))
 
 
-def plan(shape):
+def plan(shape: Cup) -> list[Circle]:
     """Outline in plan: the rim, across which the ground ends."""
     return [Circle(shape.x, shape.y, shape.radius)]
 
 
-def heights(shape):
+def heights(shape: Cup) -> tuple[float, float]:
     """Height of the bottom, and greatest height of the rim."""
     _, _, _, _, highest, bottom = opening(shape)
     return bottom, highest
 
 
 @kernel
-def rim_height(cup, c, s):
+def rim_height(cup: StructRecord, c: float, s: float) -> float:
     """Height of the rim in the direction of cosine `c` and sine `s`."""
     w = cup['rim']
     return w[0] + w[1] * c + w[2] * s + w[3] * (c * c - s * s) + w[4] * 2.0 * s * c
 
 
 @kernel
-def rim_at(cup, angle):
+def rim_at(cup: StructRecord, angle: float) -> tuple[Vector, Vector, Vector]:
     """Point of the rim at `angle`, and its first and second derivative by the angle."""
     c = cos(angle)
     s = sin(angle)
@@ -190,8 +200,8 @@ def rim_at(cup, angle):
 
 
 @kernel
-def first_guess(cup, point):
-    """Initial guess of the angle of the rim's nearest point: that of `point`, or the best of eight."""
+def first_guess(cup: StructRecord, point: Vector) -> float:
+    """Guess the angle of the rim's nearest point: that of `point`, or the best of eight."""
     dx = point[0] - cup['center'][0]
     dy = point[1] - cup['center'][1]
     best = atan2(dy, dx)
@@ -208,8 +218,11 @@ def first_guess(cup, point):
 
 
 @kernel
-def nearest_on_rim(cup, point):
-    """Angle of the rim's point nearest to `point`, by Newton's method on half the squared distance."""
+def nearest_on_rim(cup: StructRecord, point: Vector) -> float:
+    """Angle of the rim's point nearest to `point`.
+
+    By Newton's method on half the squared distance.
+    """
     angle = first_guess(cup, point)
     for _ in range(MOST_CUP_STEPS):
         place, ahead, bend = rim_at(cup, angle)
@@ -226,7 +239,7 @@ def nearest_on_rim(cup, point):
 
 
 @kernel
-def polar_from_axis(cup, point):
+def polar_from_axis(cup: StructRecord, point: Vector) -> Vector:
     """Polar coordinates of `point` about the axis: distance, and cosine and sine of the angle."""
     dx = point[0] - cup['center'][0]
     dy = point[1] - cup['center'][1]
@@ -237,12 +250,12 @@ def polar_from_axis(cup, point):
 
 
 @surface_protocol.parts.register(Cups)
-def _parts(kind):
+def _parts(kind: Cups) -> int:
     return 2 * len(kind.cups)
 
 
 @surface_protocol.next_part.register(Cups)
-def _next_part(kind, part, low, high):
+def _next_part(kind: Cups, part: int, low: Vector, high: Vector) -> int:
     while part < 2 * len(kind.cups):
         cup = kind.cups[part // 2]
         if meets(cup, low, high) and (part % 2 == 0 or low[2] <= cup['bottom']):
@@ -252,7 +265,7 @@ def _next_part(kind, part, low, high):
 
 
 @surface_protocol.nearest.register(Cups)
-def _nearest(kind, part, point):
+def _nearest(kind: Cups, part: int, point: Vector) -> tuple[float, Vector]:
     cup = kind.cups[part // 2]
     away, c, s = polar_from_axis(cup, point)
     if part % 2 == 1:  # a disc, hit from above
@@ -273,7 +286,7 @@ def _nearest(kind, part, point):
 
 
 @surface_protocol.turn.register(Cups)
-def _turn(kind, part, point, velocity):
+def _turn(kind: Cups, part: int, point: Vector, velocity: Vector) -> Vector:
     cup = kind.cups[part // 2]
     if part % 2 == 1:
         return 0.0, 0.0, 0.0
@@ -292,14 +305,14 @@ def _turn(kind, part, point, velocity):
 
 
 @surface_protocol.hollow.register(Cups)
-def _hollow(kind, part):
+def _hollow(kind: Cups, part: int) -> float:
     # Within 1 / (2 K) of a curve of curvature at most K the distance's second derivative is 2 K
     # v^2 at most.
     return kind.cups[part // 2]['hollow'] if part % 2 == 0 else 0.0
 
 
 @surface_protocol.touchable.register(Cups)
-def _touchable(kind, part, point):
+def _touchable(kind: Cups, part: int, point: Vector) -> bool:
     cup = kind.cups[part // 2]
     if part % 2 == 1:
         return point[2] >= cup['bottom']
@@ -309,14 +322,14 @@ def _touchable(kind, part, point):
 
 
 @surface_protocol.flat_under.register(Cups)
-def _flat_under(kind, part, point):
+def _flat_under(kind: Cups, part: int, point: Vector) -> bool:
     cup = kind.cups[part // 2]
     away, _, _ = polar_from_axis(cup, point)
     return part % 2 == 1 and away <= cup['radius'] + PLANE_ROUNDING
 
 
 @surface_protocol.in_plane.register(Cups)
-def _in_plane(kind, part, point, normal):
+def _in_plane(kind: Cups, part: int, point: Vector, normal: Vector) -> bool:
     cup = kind.cups[part // 2]
     if part % 2 == 1:
         return abs(normal[2]) > 1.0 - 1e-12 and abs(point[2] - cup['bottom']) <= SAME_HEIGHT
@@ -328,17 +341,17 @@ def _in_plane(kind, part, point, normal):
 
 
 @surface_protocol.is_ground.register(Cups)
-def _is_ground(kind, part):
+def _is_ground(kind: Cups, part: int) -> bool:
     return False
 
 
 @surface_protocol.sort.register(Cups)
-def _sort(kind, part):
+def _sort(kind: Cups, part: int) -> int:
     return surface_protocol.CUP_SORT
 
 
 @surface_protocol.material_of.register(Cups)
-def _material_of(kind, part):
+def _material_of(kind: Cups, part: int) -> int:
     cup = kind.cups[part // 2]
     return cup['side_material'] if part % 2 == 0 else cup['bottom_material']
 

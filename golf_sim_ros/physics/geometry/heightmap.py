@@ -12,12 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Height maps: curved ground from heights on a grid, its cells, the walls around, and each map as a whole.
+"""Height maps: curved ground from heights on a grid.
 
-Parts are numbered cells first, of all maps, row by row; then walls, one for each cell's side on
-the outline, that go down without end; then maps. A map as a whole is the support of a ball where
-its hollows are wide; it is never hit, only cells and walls are. On a map with a narrow hollow a
-ball rolls from cell to cell.
+Parts are its cells, the walls around it, and each map as a whole. They are numbered cells first,
+of all maps, row by row; then walls, one for each cell's side on the outline, that go down without
+end; then maps. A map as a whole is the support of a ball where its hollows are wide; it is never
+hit, only cells and walls are. On a map with a narrow hollow a ball rolls from cell to cell.
 
 ::
 
@@ -28,7 +28,7 @@ ball rolls from cell to cell.
 """
 
 from math import floor
-from typing import NamedTuple
+from typing import Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
@@ -36,11 +36,13 @@ from . import surface_protocol
 from .bicubic import bicubic, bounds, cell_at, GRID, nodes
 from .closest_point import closest_point, curvatures, held, pulls
 from .plane_patch import SAME_HEIGHT
+from .polygon import Outline
 from ..jit import kernel, shared
+from ..kernel_types import Rectangle, StructRecord, SurfacePoint, Vector
 from ..mechanics.vector import dot, length, scale, sub, tangential, unit, ZERO
 from ..properties.material import Material
 
-# 1/m: hollows of less curvature touch a ball of 5 cm at one point only, with room to spare
+# 1/m: hollows of less curvature touch a ball of 5 cm at one point only, with room to spare.
 WIDE = 10.0
 SEVERAL = 256  # effort of a cell where the distance may have several minima
 ON_SEAM = 1e-9  # rad: above a seam but for this angle, a ball is above both cells
@@ -53,8 +55,8 @@ class Heightmap(NamedTuple):
     ``heights[0][0]``; ``spacing`` [m] of the grid along x and y.
     """
 
-    heights: tuple
-    origin: tuple = (0.0, 0.0)
+    heights: Union[np.ndarray, Sequence[Sequence[float]]]
+    origin: tuple[float, float] = (0.0, 0.0)
     spacing: float = 1.0
     material: Material = Material()
 
@@ -72,8 +74,8 @@ class Maps(NamedTuple):
     cells: np.ndarray
 
 
-def build(shapes, material_number):
-    """`Maps` of `Heightmap` records; `material_number` maps a material to its row."""
+def build(shapes: Sequence[Heightmap], material_number: Mapping[Material, int]) -> Maps:
+    """Build `Maps` of `Heightmap` records; `material_number` gives a material's row."""
     rows, tables, cells = [], [np.empty((0, 4))], [np.empty((0, 4))]
     counts = [(len(shape.heights) - 1, len(shape.heights[0]) - 1) for shape in shapes]
     node = cell = 0
@@ -109,26 +111,26 @@ def build(shapes, material_number):
     return Maps(np.array(rows, GRID), np.concatenate(tables), np.concatenate(cells))
 
 
-def spline(shape):
+def spline(shape: Heightmap) -> tuple[np.ndarray, np.ndarray]:
     """Node values of a map's spline, and bounds of its cells."""
     table = nodes(np.array(shape.heights, float))
     return table, bounds(table, shape.spacing)
 
 
-def corners(shape):
+def corners(shape: Heightmap) -> tuple[tuple[float, float], tuple[float, float]]:
     """Least and greatest x and y of a map's outline."""
     size = shape.spacing * (np.array((len(shape.heights[0]), len(shape.heights))) - 1)
     (x, y), (width, depth) = shape.origin, size
     return (x, y), (x + width, y + depth)
 
 
-def plan(shape):
+def plan(shape: Heightmap) -> list[Outline]:
     """Outline in plan, a rectangle."""
     (x0, y0), (x1, y1) = corners(shape)
     return [((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
 
 
-def heights(shape):
+def heights(shape: Heightmap) -> tuple[float, float]:
     """Least and greatest height."""
     limits = spline(shape)[1]
     return float(limits[..., 0].min()), float(limits[..., 1].max())
@@ -139,14 +141,14 @@ NUMBERED = 2
 
 
 @surface_protocol.parts.register(Maps)
-def _parts(kind):
+def _parts(kind: Maps) -> int:
     n = len(kind.grids)
     return kind.grids[n - 1]['number'] + 1 if n > 0 else 0
 
 
 @shared
-def grid_of(kind, part):
-    """Number of the map that `part` belongs to."""
+def grid_of(kind: Maps, part: int) -> int:
+    """Find the number of the map that `part` belongs to."""
     for i in range(len(kind.grids)):
         grid = kind.grids[i]
         if (
@@ -159,8 +161,11 @@ def grid_of(kind, part):
 
 
 @shared
-def wall_side(grid, part):
-    """Cell to which a wall belongs, and its side: 0 at the least y, 1 at the greatest, 2 and 3 those of x."""
+def wall_side(grid: StructRecord, part: int) -> tuple[int, int]:
+    """Cell to which a wall belongs, and its side.
+
+    0 is at the least y, 1 at the greatest, 2 and 3 are those of x.
+    """
     k = part - grid['first_wall']
     nx = grid['nx']
     ny = grid['ny']
@@ -174,14 +179,14 @@ def wall_side(grid, part):
 
 
 @kernel
-def wall_number(grid, side, k):
+def wall_number(grid: StructRecord, side: int, k: int) -> int:
     """Part number of wall `k` of a side."""
     before = (side > 0) * grid['nx'] + (side > 1) * grid['nx'] + (side > 2) * grid['ny']
     return grid['first_wall'] + before + k
 
 
 @shared
-def bounds_of(kind, part):
+def bounds_of(kind: Maps, part: int) -> int:
     """Row of the bounds of the cell `part`, or of the cell to which the wall `part` belongs."""
     if part < len(kind.cells):
         return part
@@ -191,7 +196,7 @@ def bounds_of(kind, part):
 
 
 @shared
-def rectangle(kind, grid, part):
+def rectangle(kind: Maps, grid: StructRecord, part: int) -> Rectangle:
     """Rectangle in plan [m] of `part` from the map's origin; that of a wall has no width."""
     size = grid['spacing']
     if part == grid['number']:
@@ -213,7 +218,9 @@ def rectangle(kind, grid, part):
 
 
 @shared
-def place_under(kind, grid, part, point):
+def place_under(
+    kind: Maps, grid: StructRecord, part: int, point: Vector
+) -> tuple[float, float, SurfacePoint]:
     """Closest point of the surface of `part`, of a wall's upper edge, and `bicubic` there."""
     # Curvature times height over or under the cell tells `closest_point` whether the minimum is
     # unique. On a map as a whole it is, for its hollows are wide.
@@ -228,13 +235,15 @@ def place_under(kind, grid, part, point):
 
 
 @kernel
-def from_origin(grid, point):
+def from_origin(grid: StructRecord, point: Vector) -> Vector:
     """Coordinates of `point` with x and y from the map's origin."""
     return point[0] - grid['origin'][0], point[1] - grid['origin'][1], point[2]
 
 
 @shared
-def beside_wall(kind, grid, part, local):
+def beside_wall(
+    kind: Maps, grid: StructRecord, part: int, local: Vector
+) -> tuple[bool, float, float]:
     """Whether a point is nearest to a wall's upright face, and x, y of the closest point there."""
     x0, y0, x1, y1 = rectangle(kind, grid, part)
     x = min(max(local[0], x0), x1)
@@ -243,13 +252,13 @@ def beside_wall(kind, grid, part, local):
 
 
 @kernel
-def is_wall(kind, grid, part):
+def is_wall(kind: Maps, grid: StructRecord, part: int) -> bool:
     """Whether `part` is a wall."""
     return len(kind.cells) <= part < grid['number']
 
 
 @surface_protocol.nearest.register(Maps)
-def _nearest(kind, part, point):
+def _nearest(kind: Maps, part: int, point: Vector) -> tuple[float, Vector]:
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
     if is_wall(kind, grid, part):
@@ -270,14 +279,21 @@ def _nearest(kind, part, point):
 
 
 @kernel
-def is_over_map(grid, local):
+def is_over_map(grid: StructRecord, local: Vector) -> bool:
     """Whether a point is within the map's outline, seen from above."""
     size = grid['spacing']
     return 0.0 <= local[0] <= grid['nx'] * size and 0.0 <= local[1] <= grid['ny'] * size
 
 
 @shared
-def is_below_map(kind, grid, part, local, place, at):
+def is_below_map(
+    kind: Maps,
+    grid: StructRecord,
+    part: int,
+    local: Vector,
+    place: tuple[float, float],
+    at: SurfacePoint,
+) -> bool:
     """Whether a point is under `part`, a cell or a map, whose closest point is at `place`.
 
     Beyond a wall a point is outside, even if it is nearest to the back of ground that falls away
@@ -295,7 +311,7 @@ def is_below_map(kind, grid, part, local, place, at):
 
 
 @shared
-def outward(kind, grid, part):
+def outward(kind: Maps, grid: StructRecord, part: int) -> Vector:
     """Outward unit normal of a wall."""
     _, side = wall_side(grid, part)
     if side < 2:
@@ -304,7 +320,7 @@ def outward(kind, grid, part):
 
 
 @surface_protocol.turn.register(Maps)
-def _turn(kind, part, point, velocity):
+def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
     # The closest point moves so that it stays closest (implicit differentiation, with the Hessian
     # of half the squared distance); held by a border, it moves along that only.
     grid = kind.grids[grid_of(kind, part)]
@@ -343,14 +359,14 @@ def _turn(kind, part, point, velocity):
 
 
 @kernel
-def turned(rate, offset):
+def turned(rate: Vector, offset: Vector) -> Vector:
     """Rate of change of the unit vector along `offset`, which changes by `rate`."""
     away = length(offset)
     return scale(1.0 / away, tangential(rate, scale(1.0 / away, offset))) if away > 0.0 else ZERO
 
 
 @surface_protocol.touchable.register(Maps)
-def _touchable(kind, part, point):
+def _touchable(kind: Maps, part: int, point: Vector) -> bool:
     # Where the surface continues beyond the border that holds the closest point, a neighbour is
     # nearer. A wall's upper edge belongs to its cell.
     grid = kind.grids[grid_of(kind, part)]
@@ -384,13 +400,13 @@ def _touchable(kind, part, point):
 
 
 @surface_protocol.hollow.register(Maps)
-def _hollow(kind, part):
+def _hollow(kind: Maps, part: int) -> float:
     grid = kind.grids[grid_of(kind, part)]
     return grid['hollow'] if part == grid['number'] else kind.cells[bounds_of(kind, part), 2]
 
 
 @surface_protocol.effort.register(Maps)
-def _effort(kind, part):
+def _effort(kind: Maps, part: int) -> int:
     if part >= len(kind.cells):
         return 1
     cell = kind.cells[part]
@@ -398,24 +414,24 @@ def _effort(kind, part):
 
 
 @surface_protocol.support_of.register(Maps)
-def _support_of(kind, part):
+def _support_of(kind: Maps, part: int) -> int:
     grid = kind.grids[grid_of(kind, part)]
     return grid['number'] if part < len(kind.cells) and grid['gentle'] else part
 
 
 @surface_protocol.smooth_surface.register(Maps)
-def _smooth_surface(kind, part):
+def _smooth_surface(kind: Maps, part: int) -> int:
     # With a map's own walls: a ball on the map touches only their upper edge, which is the map's.
     return kind.grids[grid_of(kind, part)]['number']
 
 
 @surface_protocol.material_of.register(Maps)
-def _material_of(kind, part):
+def _material_of(kind: Maps, part: int) -> int:
     return kind.grids[grid_of(kind, part)]['material']
 
 
 @surface_protocol.top.register(Maps)
-def _top(kind, x, y):
+def _top(kind: Maps, x: float, y: float) -> tuple[float, int]:
     best = -1e300
     who = -1
     for i in range(len(kind.grids)):
@@ -431,7 +447,7 @@ def _top(kind, x, y):
 
 
 @surface_protocol.next_part.register(Maps)
-def _next_part(kind, part, low, high):
+def _next_part(kind: Maps, part: int, low: Vector, high: Vector) -> int:
     for i in range(len(kind.grids)):
         grid = kind.grids[i]
         if part < grid['first_cell'] + grid['nx'] * grid['ny'] and reached(grid, low, high):
@@ -448,7 +464,7 @@ def _next_part(kind, part, low, high):
 
 
 @kernel
-def reached(grid, low, high):
+def reached(grid: StructRecord, low: Vector, high: Vector) -> bool:
     """Whether the box overlaps the map in plan, and reaches down to it."""
     x = grid['origin'][0]
     y = grid['origin'][1]
@@ -462,7 +478,7 @@ def reached(grid, low, high):
 
 
 @kernel
-def columns_in(grid, axis, low, high):
+def columns_in(grid: StructRecord, axis: int, low: Vector, high: Vector) -> tuple[int, int]:
     """First and last cell along an axis that the box may overlap."""
     # A little more on both sides: on a seam both cells count, whatever the rounding.
     count = grid['ny'] if axis else grid['nx']
@@ -472,7 +488,7 @@ def columns_in(grid, axis, low, high):
 
 
 @shared
-def next_cell(kind, grid, part, low, high):
+def next_cell(kind: Maps, grid: StructRecord, part: int, low: Vector, high: Vector) -> int:
     """First cell of a map, from `part` on, that reaches up into the box, or -1."""
     left, right = columns_in(grid, 0, low, high)
     front, back = columns_in(grid, 1, low, high)
@@ -486,7 +502,7 @@ def next_cell(kind, grid, part, low, high):
 
 
 @shared
-def next_wall(kind, grid, part, low, high):
+def next_wall(kind: Maps, grid: StructRecord, part: int, low: Vector, high: Vector) -> int:
     """First wall of a map, from `part` on, that reaches up into the box, or -1."""
     for side in range(4):
         axis = 0 if side < 2 else 1

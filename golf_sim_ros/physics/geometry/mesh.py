@@ -14,15 +14,13 @@
 
 """Triangle meshes: thin sheets, hit from both sides unless they are one-sided.
 
-Each triangle is a part.
-
-Between coplanar triangles there are seams, no edges: a ball that rolls off one is put on the plane
-of the next, which is the same. Parts are numbered depth first along a bounding volume hierarchy,
-mesh by mesh.
+Each triangle is a part. Between coplanar triangles there are seams, no edges: a ball that rolls
+off one is put on the plane of the next, which is the same. Parts are numbered depth first along a
+bounding volume hierarchy, mesh by mesh.
 """
 
 from math import inf
-from typing import NamedTuple
+from typing import Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -30,6 +28,7 @@ from . import surface_protocol
 from .bvh import BVH_NODE, hierarchy
 from .plane_patch import FLUSH, meets, PLANE_ROUNDING, SAME_HEIGHT
 from ..jit import kernel
+from ..kernel_types import StructRecord, Vector
 from ..mechanics.vector import (
     add_scaled,
     cross,
@@ -44,7 +43,7 @@ from ..mechanics.vector import (
 )
 from ..properties.material import Material
 
-# m: on a border, face, side or corner is decided this far ahead of a moving ball
+# m: on a border, face, side or corner is decided this far ahead of a moving ball.
 MESH_AHEAD = 1e-7
 NARROW = 1e-9  # m: the normal of a triangle that is no wider is rounding
 TRIANGLE_FACE, CORNER = -1, 3  # feature of a triangle, if not side 0, 1 or 2
@@ -80,7 +79,7 @@ class Meshes(NamedTuple):
     nodes: np.ndarray
 
 
-def meshes(shapes, material_number):
+def meshes(shapes: Sequence[Mesh], material_number: Mapping[Material, int]) -> Meshes:
     """`Meshes` of `Mesh` records; `material_number` maps a material to its row.
 
     Raises
@@ -106,7 +105,7 @@ def meshes(shapes, material_number):
     return Meshes(np.concatenate(triangles), np.concatenate(nodes))
 
 
-def checked(shape):
+def checked(shape: Mesh) -> np.ndarray:
     """Faces of `shape`, a `Mesh`; ValueError where one can't be used."""
     vertices = np.asarray(shape.vertices, float).reshape(-1, 3)
     faces = np.asarray(shape.faces, np.int64).reshape(-1, 3)
@@ -120,7 +119,7 @@ def checked(shape):
     return faces
 
 
-def widths(corners):
+def widths(corners: np.ndarray) -> np.ndarray:
     """Least widths [m] of the triangles with `corners` (n, 3, 3)."""
     with np.errstate(invalid='ignore', divide='ignore'):
         sides = corners[:, (1, 2, 0)] - corners
@@ -130,7 +129,7 @@ def widths(corners):
         return np.where(longest > 0.0, np.sqrt(areas / longest), 0.0)
 
 
-def _rows(corners, material, one_sided):
+def _rows(corners: np.ndarray, material: int, one_sided: bool) -> np.ndarray:
     sides = corners[:, (1, 2, 0)] - corners
     # The normal is that of the two shorter sides: of a sliver, the longest adds nothing but
     # rounding.
@@ -146,12 +145,12 @@ def _rows(corners, material, one_sided):
 
 
 @surface_protocol.parts.register(Meshes)
-def _parts(kind):
+def _parts(kind: Meshes) -> int:
     return len(kind.triangles)
 
 
 @surface_protocol.next_part.register(Meshes)
-def _next_part(kind, part, low, high):
+def _next_part(kind: Meshes, part: int, low: Vector, high: Vector) -> int:
     # A query resumes at the leaf of `part`, not at the root: a loop over parts is one walk of the
     # tree.
     triangles = len(kind.triangles)
@@ -176,7 +175,7 @@ def _next_part(kind, part, low, high):
 
 
 @kernel
-def is_near(triangle, low, high):
+def is_near(triangle: StructRecord, low: Vector, high: Vector) -> bool:
     """Whether the triangle's box overlaps the box from `low` to `high`."""
     for axis in range(3):
         a = triangle['corners'][0, axis]
@@ -188,8 +187,11 @@ def is_near(triangle, low, high):
 
 
 @kernel
-def offset_from(triangle, point):
-    """Vector to `point` from the triangle's closest point, and its feature: TRIANGLE_FACE, a side, CORNER."""
+def offset_from(triangle: StructRecord, point: Vector) -> tuple[Vector, int]:
+    """Vector to `point` from the triangle's closest point, and that one's feature.
+
+    TRIANGLE_FACE, the number of a side, or CORNER.
+    """
     normal = load(triangle['normal'])
     where = TRIANGLE_FACE
     best = ZERO
@@ -213,19 +215,19 @@ def offset_from(triangle, point):
 
 
 @kernel
-def height_over(triangle, point):
+def height_over(triangle: StructRecord, point: Vector) -> float:
     """Height [m] of `point` over the triangle's plane."""
     return dot(sub(point, load(triangle['corners'][1])), load(triangle['normal']))
 
 
 @kernel
-def beside_triangle(triangle, point, offset):
-    """Distance [m] of the foot of `point` in the triangle's plane from the triangle, by its `offset`."""
+def beside_triangle(triangle: StructRecord, point: Vector, offset: Vector) -> float:
+    """Distance [m], by its `offset`, from the triangle of the foot of `point` in its plane."""
     return length(tangential(offset, load(triangle['normal'])))
 
 
 @surface_protocol.nearest.register(Meshes)
-def _nearest(kind, part, point):
+def _nearest(kind: Meshes, part: int, point: Vector) -> tuple[float, Vector]:
     triangle = kind.triangles[part]
     normal = load(triangle['normal'])
     offset, where = offset_from(triangle, point)
@@ -237,7 +239,7 @@ def _nearest(kind, part, point):
 
 
 @surface_protocol.turn.register(Meshes)
-def _turn(kind, part, point, velocity):
+def _turn(kind: Meshes, part: int, point: Vector, velocity: Vector) -> Vector:
     speed = length(velocity)
     if speed == 0.0:
         return ZERO
@@ -246,7 +248,7 @@ def _turn(kind, part, point, velocity):
     if where == TRIANGLE_FACE:
         return ZERO
     distance, out = surface_protocol.nearest(kind, part, point)
-    # along a side the closest point goes along with the ball, and the normal stays
+    # Along a side the closest point goes along with the ball, and the normal stays.
     if where != CORNER:
         side = sub(load(triangle['corners'][(where + 1) % 3]), load(triangle['corners'][where]))
         velocity = tangential(velocity, unit(side, ZERO))
@@ -254,26 +256,26 @@ def _turn(kind, part, point, velocity):
 
 
 @surface_protocol.touchable.register(Meshes)
-def _touchable(kind, part, point):
+def _touchable(kind: Meshes, part: int, point: Vector) -> bool:
     return (
         kind.triangles[part]['one_sided'] == 0 or height_over(kind.triangles[part], point) >= 0.0
     )
 
 
 @surface_protocol.flat_under.register(Meshes)
-def _flat_under(kind, part, point):
+def _flat_under(kind: Meshes, part: int, point: Vector) -> bool:
     return is_over_triangle(kind.triangles[part], point)
 
 
 @kernel
-def is_over_triangle(triangle, point):
+def is_over_triangle(triangle: StructRecord, point: Vector) -> bool:
     """Whether the foot of `point` in the triangle's plane lies in the triangle."""
     offset, where = offset_from(triangle, point)
     return where == TRIANGLE_FACE or beside_triangle(triangle, point, offset) <= PLANE_ROUNDING
 
 
 @surface_protocol.in_plane.register(Meshes)
-def _in_plane(kind, part, point, normal):
+def _in_plane(kind: Meshes, part: int, point: Vector, normal: Vector) -> bool:
     triangle = kind.triangles[part]
     if (
         abs(dot(load(triangle['normal']), normal)) > 1.0 - 1e-12
@@ -287,12 +289,12 @@ def _in_plane(kind, part, point, normal):
 
 
 @surface_protocol.limits.register(Meshes)
-def _limits(kind, part):
+def _limits(kind: Meshes, part: int) -> int:
     return 3
 
 
 @surface_protocol.limit.register(Meshes)
-def _limit(kind, part, i):
+def _limit(kind: Meshes, part: int, i: int) -> tuple[Vector, Vector]:
     triangle = kind.triangles[part]
     start = load(triangle['corners'][i])
     side = sub(load(triangle['corners'][(i + 1) % 3]), start)
@@ -300,12 +302,12 @@ def _limit(kind, part, i):
 
 
 @surface_protocol.material_of.register(Meshes)
-def _material_of(kind, part):
+def _material_of(kind: Meshes, part: int) -> int:
     return kind.triangles[part]['material']
 
 
 @surface_protocol.top.register(Meshes)
-def _top(kind, x, y):
+def _top(kind: Meshes, x: float, y: float) -> tuple[float, int]:
     best = -1e300
     who = -1
     low = (x - PLANE_ROUNDING, y - PLANE_ROUNDING, -inf)
@@ -324,12 +326,12 @@ def _top(kind, x, y):
     return best, who
 
 
-def plan(shape):
+def plan(shape: Mesh) -> tuple[()]:
     """Outlines in plan: none, for a triangle's own sides are its limits."""
     return ()
 
 
-def heights(shape):
+def heights(shape: Mesh) -> tuple[float, float]:
     """Least and greatest height of the vertices that belong to faces."""
     z = np.asarray(shape.vertices, float).reshape(-1, 3)[
         np.asarray(shape.faces, np.int64).reshape(-1, 3), 2

@@ -16,6 +16,8 @@
 
 from typing import NamedTuple
 
+from .polygon import Outline
+from ..kernel_types import Vector
 from ..properties.material import Material
 
 
@@ -26,11 +28,11 @@ class Patch(NamedTuple):
     plane), `width` [m] across it. `cut` holds polygons, tuples of (x, y), where the sheet ends.
     """
 
-    center: tuple
-    normal: tuple = (0.0, 0.0, 1.0)
+    center: Vector
+    normal: Vector = (0.0, 0.0, 1.0)
     heading: float = 0.0
     length: float = 1.0
     width: float = 1.0
     material: Material = Material()
     one_sided: bool = False
-    cut: tuple = ()
+    cut: tuple[Outline, ...] = ()

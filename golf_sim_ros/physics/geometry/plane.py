@@ -16,6 +16,8 @@
 
 from typing import NamedTuple
 
+from .polygon import Outline
+from ..kernel_types import Vector
 from ..properties.material import Material
 
 
@@ -26,7 +28,7 @@ class Plane(NamedTuple):
     normal opens there.
     """
 
-    point: tuple = (0.0, 0.0, 0.0)
-    normal: tuple = (0.0, 0.0, 1.0)
+    point: Vector = (0.0, 0.0, 0.0)
+    normal: Vector = (0.0, 0.0, 1.0)
     material: Material = Material()
-    cut: tuple = ()
+    cut: tuple[Outline, ...] = ()

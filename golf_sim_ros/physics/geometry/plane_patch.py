@@ -29,15 +29,16 @@ solid below for a plane; a cut plane's edges are walls that go down along its no
 """
 
 from math import cos, inf, sin
-from typing import NamedTuple
+from typing import Any, Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
 from . import surface_protocol
 from .patch import Patch
 from .plane import Plane
-from .polygon import inside, Polygons, polygons, sides
+from .polygon import inside, Outline, Polygons, polygons, sides
 from ..jit import kernel
+from ..kernel_types import StructRecord, Vector
 from ..mechanics.vector import (
     add,
     add_scaled,
@@ -50,11 +51,12 @@ from ..mechanics.vector import (
     unit,
     ZERO,
 )
+from ..properties.material import Material
 
 SAME_HEIGHT = 1e-6  # m: surfaces closer than this count as coplanar
 PLANE_ROUNDING = 1e-9  # m: faces extend by this, so that neighbours leave no gap by rounding
 FLUSH = 2.0 * PLANE_ROUNDING  # m: a foot so near to a triangle, in its plane, is on its face
-# m: on a border the normal turns as it will beyond it, or a ball would leave an edge too late
+# m: on a border the normal turns as it will beyond it, or a ball would leave an edge too late.
 AHEAD = 2e-7
 
 FACE = np.dtype(
@@ -99,8 +101,8 @@ class Flats(NamedTuple):
     cuts: Polygons
 
 
-def frame(normal, heading):
-    """Orthonormal frame: the normal, the unit vector along `heading` in its plane, and that across."""
+def frame(normal: Sequence[float], heading: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Orthonormal frame: the normal, a unit vector along `heading` in its plane, one across."""
     n = np.asarray(normal, float)
     n = n / np.linalg.norm(n)
     ahead = np.array([cos(heading), sin(heading), 0.0])
@@ -111,14 +113,20 @@ def frame(normal, heading):
     return n, a, np.cross(n, a)
 
 
-def flats(shapes, material_number):
+def flats(shapes: Sequence[Union[Plane, Patch]], material_number: Mapping[Material, int]) -> Flats:
     """`Flats` of `Plane` and `Patch` records; `material_number` maps a material to its row."""
-    faces, edges, outlines = [], [], []
+    faces, edges = [], []
+    outlines: list[Outline] = []
     for shape in shapes:
         solid = isinstance(shape, Plane)
-        center = np.asarray(shape.point if solid else shape.center, float)
-        n, a, b = frame(shape.normal, 0.0 if solid else shape.heading)
-        half = (inf, inf) if solid else (0.5 * shape.length, 0.5 * shape.width)
+        if isinstance(shape, Plane):
+            center = np.asarray(shape.point, float)
+            heading, half, one_sided = 0.0, (inf, inf), False
+        else:
+            center = np.asarray(shape.center, float)
+            heading, half = shape.heading, (0.5 * shape.length, 0.5 * shape.width)
+            one_sided = shape.one_sided
+        n, a, b = frame(shape.normal, heading)
         number = material_number[shape.material]
         low, high = _face_box(center, n, a, b, half)
         faces.append(
@@ -129,7 +137,7 @@ def flats(shapes, material_number):
                 b,
                 *half,
                 solid,
-                not solid and shape.one_sided,
+                one_sided,
                 number,
                 len(outlines),
                 len(outlines) + len(shape.cut),
@@ -143,7 +151,9 @@ def flats(shapes, material_number):
     return Flats(np.array(faces, FACE), np.array(edges, EDGE), polygons(outlines))
 
 
-def _face_box(center, n, a, b, half):
+def _face_box(
+    center: np.ndarray, n: np.ndarray, a: np.ndarray, b: np.ndarray, half: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray]:
     if half[0] < inf:
         reach = np.abs(a) * half[0] + np.abs(b) * half[1]
         return center - reach, center + reach
@@ -154,8 +164,10 @@ def _face_box(center, n, a, b, half):
     return low, high
 
 
-def _cut_edges(center, n, outline, depth, material):
-    def lifted(corner):
+def _cut_edges(
+    center: np.ndarray, n: np.ndarray, outline: Outline, depth: float, material: int
+) -> list[tuple[Any, ...]]:
+    def lifted(corner: Sequence[float]) -> np.ndarray:
         x, y = corner
         z = center[2] - (n[0] * (x - center[0]) + n[1] * (y - center[1])) / n[2]
         return np.array([x, y, z])
@@ -173,12 +185,12 @@ def _cut_edges(center, n, outline, depth, material):
 
 
 @surface_protocol.parts.register(Flats)
-def _parts(kind):
+def _parts(kind: Flats) -> int:
     return len(kind.faces) + len(kind.edges)
 
 
 @surface_protocol.next_part.register(Flats)
-def _next_part(kind, part, low, high):
+def _next_part(kind: Flats, part: int, low: Vector, high: Vector) -> int:
     faces = len(kind.faces)
     while part < faces + len(kind.edges):
         if part < faces:
@@ -191,7 +203,7 @@ def _next_part(kind, part, low, high):
 
 
 @kernel
-def meets(row, low, high):
+def meets(row: StructRecord, low: Vector, high: Vector) -> bool:
     """Whether the box of `row`, a face, edge or node, overlaps the box from `low` to `high`."""
     return not (
         low[2] > row['high'][2]
@@ -204,13 +216,13 @@ def meets(row, low, high):
 
 
 @kernel
-def clamped(x, most):
+def clamped(x: float, most: float) -> float:
     """Clamp `x` between -`most` and `most`."""
     return min(max(x, -most), most)
 
 
 @kernel
-def offset_from_face(face, point):
+def offset_from_face(face: StructRecord, point: Vector) -> tuple[Vector, float]:
     """Vector to `point` from the closest point of a face, and the height over its plane."""
     d = sub(point, load(face['center']))
     normal = load(face['normal'])
@@ -224,7 +236,7 @@ def offset_from_face(face, point):
 
 
 @kernel
-def offset_from_edge(edge, point):
+def offset_from_edge(edge: StructRecord, point: Vector) -> Vector:
     """Vector to `point` from the closest point of a cut's edge, wall included."""
     d = sub(point, load(edge['start']))
     direction = load(edge['direction'])
@@ -235,7 +247,7 @@ def offset_from_edge(edge, point):
 
 
 @surface_protocol.nearest.register(Flats)
-def _nearest(kind, part, point):
+def _nearest(kind: Flats, part: int, point: Vector) -> tuple[float, Vector]:
     if part < len(kind.faces):
         face = kind.faces[part]
         normal = load(face['normal'])
@@ -249,7 +261,7 @@ def _nearest(kind, part, point):
 
 
 @surface_protocol.turn.register(Flats)
-def _turn(kind, part, point, velocity):
+def _turn(kind: Flats, part: int, point: Vector, velocity: Vector) -> Vector:
     speed = length(velocity)
     if speed == 0.0:
         return ZERO
@@ -279,13 +291,13 @@ def _turn(kind, part, point, velocity):
 
 
 @kernel
-def in_direction(velocity, direction):
+def in_direction(velocity: Vector, direction: Vector) -> Vector:
     """Component of `velocity` along a unit `direction`, as a vector."""
     return scale(dot(velocity, direction), direction)
 
 
 @kernel
-def in_a_cut(flat, face, x, y):
+def in_a_cut(flat: Flats, face: StructRecord, x: float, y: float) -> bool:
     """Whether the surface of `face` is cut away at `x`, `y`."""
     for i in range(face['first_cut'], face['last_cut']):
         if inside(flat.cuts, i, x, y):
@@ -294,7 +306,7 @@ def in_a_cut(flat, face, x, y):
 
 
 @surface_protocol.touchable.register(Flats)
-def _touchable(kind, part, point):
+def _touchable(kind: Flats, part: int, point: Vector) -> bool:
     if part >= len(kind.faces):
         return True
     face = kind.faces[part]
@@ -303,7 +315,7 @@ def _touchable(kind, part, point):
 
 
 @surface_protocol.in_cut.register(Flats)
-def _in_cut(kind, part, point):
+def _in_cut(kind: Flats, part: int, point: Vector) -> bool:
     if part >= len(kind.faces):
         return False
     face = kind.faces[part]
@@ -313,7 +325,7 @@ def _in_cut(kind, part, point):
 
 
 @surface_protocol.flat_under.register(Flats)
-def _flat_under(kind, part, point):
+def _flat_under(kind: Flats, part: int, point: Vector) -> bool:
     if part >= len(kind.faces):
         return False
     face = kind.faces[part]
@@ -325,12 +337,12 @@ def _flat_under(kind, part, point):
 
 
 @surface_protocol.is_plane.register(Flats)
-def _is_plane(kind, part):
+def _is_plane(kind: Flats, part: int) -> bool:
     return part < len(kind.faces) and kind.faces[part]['solid'] != 0
 
 
 @surface_protocol.in_plane.register(Flats)
-def _in_plane(kind, part, point, normal):
+def _in_plane(kind: Flats, part: int, point: Vector, normal: Vector) -> bool:
     if part < len(kind.faces):
         place = load(kind.faces[part]['center'])
         own = load(kind.faces[part]['normal'])
@@ -341,14 +353,14 @@ def _in_plane(kind, part, point, normal):
 
 
 @surface_protocol.material_of.register(Flats)
-def _material_of(kind, part):
+def _material_of(kind: Flats, part: int) -> int:
     if part < len(kind.faces):
         return kind.faces[part]['material']
     return kind.edges[part - len(kind.faces)]['material']
 
 
 @surface_protocol.top.register(Flats)
-def _top(kind, x, y):
+def _top(kind: Flats, x: float, y: float) -> tuple[float, int]:
     best = -1e300
     who = -1
     for part in range(len(kind.faces)):
@@ -372,7 +384,7 @@ def _top(kind, x, y):
 
 
 @kernel
-def _covers(flat, face, place):
+def _covers(flat: Flats, face: StructRecord, place: Vector) -> bool:
     d = sub(place, load(face['center']))
     return (
         abs(dot(d, load(face['along']))) <= face['half_length'] + PLANE_ROUNDING
@@ -381,9 +393,9 @@ def _covers(flat, face, place):
     )
 
 
-def plan(shape):
+def plan(shape: Union[Plane, Patch]) -> list[Outline]:
     """Outlines in plan, sequences of (x, y), across which `shape` begins or ends."""
-    outlines = [tuple(c) for c in shape.cut]
+    outlines: list[Outline] = [tuple(c) for c in shape.cut]
     if isinstance(shape, Patch):
         n, a, b = frame(shape.normal, shape.heading)
         turns = ((1, 1), (-1, 1), (-1, -1), (1, -1))
@@ -402,7 +414,7 @@ def plan(shape):
     return outlines
 
 
-def heights(shape):
+def heights(shape: Union[Plane, Patch]) -> tuple[float, float]:
     """Least and greatest height of a patch or a level plane.
 
     A tilted plane counts as having none.

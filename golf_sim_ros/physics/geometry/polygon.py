@@ -15,11 +15,14 @@
 """Polygons in plan: point queries on a table of corners."""
 
 from math import inf, sqrt
-from typing import NamedTuple
+from typing import Iterable, NamedTuple, Sequence
 
 import numpy as np
 
 from ..jit import kernel
+
+# corners x, y of a polygon in plan, in their order
+Outline = Sequence[Sequence[float]]
 
 
 class Polygons(NamedTuple):
@@ -30,7 +33,10 @@ class Polygons(NamedTuple):
 
 
 class Regions(NamedTuple):
-    """Polygons with holes: those of outline i are cuts ``first_cut[i]`` to before ``first_cut[i + 1]``."""
+    """Polygons with holes.
+
+    Those of outline i are cuts ``first_cut[i]`` to before ``first_cut[i + 1]``.
+    """
 
     outlines: Polygons
     cuts: Polygons
@@ -45,32 +51,32 @@ class Circle(NamedTuple):
     radius: float
 
 
-def polygons(outlines):
+def polygons(outlines: Iterable[Outline]) -> Polygons:
     """`Polygons` of sequences of (x, y)."""
     first = np.cumsum([0] + [len(outline) for outline in outlines]).astype(np.int64)
     corners = np.array([c for outline in outlines for c in outline], float).reshape(-1, 2)
     return Polygons(corners, first)
 
 
-def regions(outlines, cuts):
+def regions(outlines: Iterable[Outline], cuts: Sequence[Sequence[Outline]]) -> Regions:
     """`Regions` of sequences of (x, y), and for each of them a sequence of such sequences."""
     first = np.cumsum([0] + [len(own) for own in cuts]).astype(np.int64)
     return Regions(polygons(outlines), polygons([cut for own in cuts for cut in own]), first)
 
 
-def sides(outline):
+def sides(outline: Outline) -> Iterable[tuple[Sequence[float], Sequence[float]]]:
     """Pairs of neighbouring corners, the last with the first."""
     return zip(outline, tuple(outline[1:]) + tuple(outline[:1]))
 
 
 @kernel
-def beside(table, i, x, y):
+def beside(table: Polygons, i: int, x: float, y: float) -> float:
     """Distance [m] of the point from polygon `i`, 0 inside."""
     return 0.0 if inside(table, i, x, y) else from_sides(table, i, x, y)
 
 
 @kernel
-def from_sides(table, i, x, y):
+def from_sides(table: Polygons, i: int, x: float, y: float) -> float:
     """Distance [m] of the point from the nearest side of polygon `i`."""
     best = inf
     first = table.first[i]
@@ -90,7 +96,7 @@ def from_sides(table, i, x, y):
 
 
 @kernel
-def inside(table, i, x, y):
+def inside(table: Polygons, i: int, x: float, y: float) -> bool:
     """Whether polygon `i` contains the point, by the even-odd rule."""
     odd = False
     first = table.first[i]
@@ -108,7 +114,7 @@ def inside(table, i, x, y):
 
 
 @kernel
-def in_region(table, i, x, y):
+def in_region(table: Regions, i: int, x: float, y: float) -> bool:
     """Whether region `i` contains the point."""
     if not inside(table.outlines, i, x, y):
         return False
@@ -119,7 +125,7 @@ def in_region(table, i, x, y):
 
 
 @kernel
-def beside_region(table, i, x, y):
+def beside_region(table: Regions, i: int, x: float, y: float) -> float:
     """Lower bound [m] on the distance of the point from region `i`; 0 inside, and only there."""
     away = beside(table.outlines, i, x, y)
     for k in range(table.first_cut[i], table.first_cut[i + 1]):

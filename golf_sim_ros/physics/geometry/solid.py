@@ -15,14 +15,16 @@
 """Solids on the ground: upright cylinders with flat ends, and spheres."""
 
 from math import sqrt
-from typing import NamedTuple
+from typing import Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
 from . import surface_protocol
 from .plane_patch import meets, PLANE_ROUNDING, SAME_HEIGHT
 from .polygon import Circle
+from .surfaces import Ground
 from ..jit import kernel
+from ..kernel_types import Box, StructRecord, Vector
 from ..mechanics.vector import add_scaled, dot, length, load, scale, sub, tangential, unit
 from ..properties.material import Material, Restitution
 
@@ -53,7 +55,7 @@ FLAGSTICK_MATERIAL = Material(
 class Cylinder(NamedTuple):
     """Upright cylinder with flat ends: `base` is the centre of the lower one."""
 
-    base: tuple
+    base: Vector
     radius: float
     height: float
     material: Material = Material()
@@ -62,7 +64,7 @@ class Cylinder(NamedTuple):
 class Sphere(NamedTuple):
     """Fixed sphere."""
 
-    center: tuple
+    center: Vector
     radius: float
     material: Material = Material()
 
@@ -70,7 +72,7 @@ class Sphere(NamedTuple):
 class Flagstick(NamedTuple):
     """Flagstick: a `Cylinder` in the hole; impacts with it are reported as such."""
 
-    base: tuple
+    base: Vector
     radius: float = FLAGSTICK_RADIUS
     height: float = FLAGSTICK_HEIGHT
     material: Material = FLAGSTICK_MATERIAL
@@ -82,7 +84,9 @@ class Solids(NamedTuple):
     solids: np.ndarray
 
 
-def build(shapes, material_number):
+def build(
+    shapes: Sequence[Union[Cylinder, Sphere, Flagstick]], material_number: Mapping[Material, int]
+) -> Solids:
     """`Solids` of records; `material_number` maps a material to its row.
 
     A cylinder's center is its base.
@@ -90,7 +94,9 @@ def build(shapes, material_number):
     rows = []
     for shape in shapes:
         is_sphere = isinstance(shape, Sphere)
-        center = shape.center if is_sphere else shape.base
+        center, height = (
+            (shape.center, 0.0) if isinstance(shape, Sphere) else (shape.base, shape.height)
+        )
         low, high = solid_box(shape)
         is_flagstick = isinstance(shape, Flagstick)
         sort = surface_protocol.FLAGSTICK_SORT if is_flagstick else surface_protocol.OBSTACLE_SORT
@@ -98,7 +104,7 @@ def build(shapes, material_number):
             (
                 center,
                 shape.radius,
-                0.0 if is_sphere else shape.height,
+                height,
                 is_sphere,
                 sort,
                 material_number[shape.material],
@@ -109,7 +115,7 @@ def build(shapes, material_number):
     return Solids(np.array(rows, SOLID))
 
 
-def without(ground):
+def without(ground: Ground) -> Ground:
     """`Ground` without solids: no obstacles, no flagstick.
 
     The types are the same, so nothing recompiles.
@@ -121,7 +127,7 @@ def without(ground):
     )
 
 
-def solid_box(shape):
+def solid_box(shape: Union[Cylinder, Sphere, Flagstick]) -> Box:
     """Least and greatest x, y, z of a solid."""
     x, y, z = shape.center if isinstance(shape, Sphere) else shape.base
     r = shape.radius
@@ -129,21 +135,21 @@ def solid_box(shape):
     return (x - r, y - r, bottom), (x + r, y + r, top)
 
 
-def plan(shape):
+def plan(shape: Union[Cylinder, Sphere, Flagstick]) -> list[Circle]:
     """Outline in plan: the rim of a cylinder's flat top; a sphere has nothing flat that ends."""
     return (
         [] if isinstance(shape, Sphere) else [Circle(shape.base[0], shape.base[1], shape.radius)]
     )
 
 
-def heights(shape):
+def heights(shape: Union[Cylinder, Sphere, Flagstick]) -> tuple[float, float]:
     """Least and greatest height of a solid."""
     low, high = solid_box(shape)
     return low[2], high[2]
 
 
 @kernel
-def from_axis(solid, point):
+def from_axis(solid: StructRecord, point: Vector) -> tuple[float, Vector]:
     """Distance of `point` from the upright axis, and the horizontal unit vector from there."""
     dx = point[0] - solid['center'][0]
     dy = point[1] - solid['center'][1]
@@ -152,26 +158,29 @@ def from_axis(solid, point):
 
 
 @kernel
-def over_ends(solid, point):
-    """Distance of `point` beyond the nearer end of a cylinder, negative between them, and its normal."""
+def over_ends(solid: StructRecord, point: Vector) -> tuple[float, Vector]:
+    """Distance of `point` beyond the nearer end of a cylinder, and that end's normal.
+
+    It is negative between the ends.
+    """
     h = point[2] - solid['center'][2]
     return max(h - solid['height'], -h), (0.0, 0.0, 1.0 if h > 0.5 * solid['height'] else -1.0)
 
 
 @surface_protocol.parts.register(Solids)
-def _parts(kind):
+def _parts(kind: Solids) -> int:
     return len(kind.solids)
 
 
 @surface_protocol.next_part.register(Solids)
-def _next_part(kind, part, low, high):
+def _next_part(kind: Solids, part: int, low: Vector, high: Vector) -> int:
     while part < len(kind.solids) and not meets(kind.solids[part], low, high):
         part += 1
     return part
 
 
 @surface_protocol.nearest.register(Solids)
-def _nearest(kind, part, point):
+def _nearest(kind: Solids, part: int, point: Vector) -> tuple[float, Vector]:
     solid = kind.solids[part]
     if solid['is_sphere']:
         offset = sub(point, load(solid['center']))
@@ -188,7 +197,7 @@ def _nearest(kind, part, point):
 
 
 @surface_protocol.turn.register(Solids)
-def _turn(kind, part, point, velocity):
+def _turn(kind: Solids, part: int, point: Vector, velocity: Vector) -> Vector:
     solid = kind.solids[part]
     if solid['is_sphere']:
         offset = sub(point, load(solid['center']))
@@ -211,7 +220,7 @@ def _turn(kind, part, point, velocity):
 
 
 @surface_protocol.flat_under.register(Solids)
-def _flat_under(kind, part, point):
+def _flat_under(kind: Solids, part: int, point: Vector) -> bool:
     solid = kind.solids[part]
     away, _ = from_axis(solid, point)
     over, _ = over_ends(solid, point)
@@ -219,7 +228,7 @@ def _flat_under(kind, part, point):
 
 
 @surface_protocol.in_plane.register(Solids)
-def _in_plane(kind, part, point, normal):
+def _in_plane(kind: Solids, part: int, point: Vector, normal: Vector) -> bool:
     solid = kind.solids[part]
     top = solid['center'][2] + solid['height']
     return (
@@ -228,22 +237,22 @@ def _in_plane(kind, part, point, normal):
 
 
 @surface_protocol.is_ground.register(Solids)
-def _is_ground(kind, part):
+def _is_ground(kind: Solids, part: int) -> bool:
     return False
 
 
 @surface_protocol.sort.register(Solids)
-def _sort(kind, part):
+def _sort(kind: Solids, part: int) -> int:
     return kind.solids[part]['sort']
 
 
 @surface_protocol.material_of.register(Solids)
-def _material_of(kind, part):
+def _material_of(kind: Solids, part: int) -> int:
     return kind.solids[part]['material']
 
 
 @surface_protocol.top.register(Solids)
-def _top(kind, x, y):
+def _top(kind: Solids, x: float, y: float) -> tuple[float, int]:
     best = -1e300
     who = -1
     for part in range(len(kind.solids)):

@@ -20,6 +20,7 @@ where the default does not do.
 """
 
 from ..jit import generic
+from ..kernel_types import KindRecord, Vector
 from ..mechanics.vector import add_scaled, length, scale, sub, ZERO
 
 NOTHING = (-1e300, -1)
@@ -27,13 +28,13 @@ GROUND_SORT, CUP_SORT, FLAGSTICK_SORT, OBSTACLE_SORT = range(4)
 
 
 @generic
-def parts(kind):
-    """Number of parts."""
+def parts(kind: KindRecord) -> int:
+    """Count the parts."""
     return 0
 
 
 @generic
-def next_part(kind, part, low, high):
+def next_part(kind: KindRecord, part: int, low: Vector, high: Vector) -> int:
     """First part, from number `part` on, that may overlap the box from `low` to `high`.
 
     Where there is none, the number of parts or more.
@@ -42,8 +43,8 @@ def next_part(kind, part, low, high):
 
 
 @generic
-def nearest(kind, part, point):
-    """Signed distance of `point` from `part`, and the unit normal from the nearest point to `point`.
+def nearest(kind: KindRecord, part: int, point: Vector) -> tuple[float, Vector]:
+    """Signed distance of `point` from `part`, and the unit normal there, towards `point`.
 
     The distance is negative inside a solid part, where the normal still points out of it.
     """
@@ -51,7 +52,7 @@ def nearest(kind, part, point):
 
 
 @generic
-def turn(kind, part, point, velocity):
+def turn(kind: KindRecord, part: int, point: Vector, velocity: Vector) -> Vector:
     """Rate of change of the unit normal that `nearest` gives, as `point` moves at `velocity`."""
     # The default, for kinds without a closed form: central differences over a micrometre to each
     # side.
@@ -65,67 +66,67 @@ def turn(kind, part, point, velocity):
 
 
 @generic
-def hollow(kind, part):
+def hollow(kind: KindRecord, part: int) -> float:
     """Greatest concave curvature [1/m] of `part`, seen from outside; 0 if it is convex."""
     return 0.0
 
 
 @generic
-def effort(kind, part):
+def effort(kind: KindRecord, part: int) -> int:
     """Work of finding the point of `part` nearest to a ball near it, over that of a plane."""
     return 1
 
 
 @generic
-def touchable(kind, part, point):
+def touchable(kind: KindRecord, part: int, point: Vector) -> bool:
     """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
     return True
 
 
 @generic
-def in_cut(kind, part, point):
+def in_cut(kind: KindRecord, part: int, point: Vector) -> bool:
     """Whether `part` is cut away, within an outline in plan, at its point nearest to `point`."""
     return False
 
 
 @generic
-def flat_under(kind, part, point):
+def flat_under(kind: KindRecord, part: int, point: Vector) -> bool:
     """Whether `part` is flat around its point nearest to `point`."""
     return False
 
 
 @generic
-def in_plane(kind, part, point, normal):
+def in_plane(kind: KindRecord, part: int, point: Vector, normal: Vector) -> bool:
     """Whether `part` belongs to the plane through `point` with `normal`, as surface or edge."""
     return False
 
 
 @generic
-def is_plane(kind, part):
+def is_plane(kind: KindRecord, part: int) -> bool:
     """Whether `nearest` gives the same normal everywhere: of an endless plane, solid below."""
     return False
 
 
 @generic
-def limits(kind, part):
-    """Number of straight lines at which `part` ends, beside outlines in plan."""
+def limits(kind: KindRecord, part: int) -> int:
+    """Count the straight lines at which `part` ends, beside outlines in plan."""
     return 0
 
 
 @generic
-def limit(kind, part, i):
+def limit(kind: KindRecord, part: int, i: int) -> tuple[Vector, Vector]:
     """Point of line `i` at which `part` ends, and the unit vector from there into the part."""
     return ZERO, ZERO
 
 
 @generic
-def support_of(kind, part):
-    """Part that supports a ball which touches `part`: of a smooth surface, the surface as a whole."""
+def support_of(kind: KindRecord, part: int) -> int:
+    """Part that supports a ball which touches `part`: a smooth surface does so as a whole."""
     return part
 
 
 @generic
-def smooth_surface(kind, part):
+def smooth_surface(kind: KindRecord, part: int) -> int:
     """Part that is the whole of the smooth surface to which `part` belongs, -1 if there is none.
 
     To a ball which that whole supports, `part` is no obstacle.
@@ -134,24 +135,24 @@ def smooth_surface(kind, part):
 
 
 @generic
-def is_ground(kind, part):
+def is_ground(kind: KindRecord, part: int) -> bool:
     """Whether zones repaint `part` and the hole is cut into it."""
     return True
 
 
 @generic
-def sort(kind, part):
+def sort(kind: KindRecord, part: int) -> int:
     """Sort of `part`, GROUND_SORT, CUP_SORT, ...: what an impact with it is reported as."""
     return GROUND_SORT
 
 
 @generic
-def material_of(kind, part):
-    """Number of the material of `part`."""
+def material_of(kind: KindRecord, part: int) -> int:
+    """Look up the number of the material of `part`."""
     return 0
 
 
 @generic
-def top(kind, x, y):
+def top(kind: KindRecord, x: float, y: float) -> tuple[float, int]:
     """Height of the highest surface at `x`, `y` and its part, or ``NOTHING``."""
     return NOTHING

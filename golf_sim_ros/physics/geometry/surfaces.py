@@ -12,14 +12,14 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Ground as a whole: the parts of all kinds in one numbering, and borders where surface or material change.
+"""Ground as a whole: the parts of all kinds in one numbering, and borders.
 
-Queries for the closest point, the highest surface and the material under a point, whatever kind of
-ground answers them.
+At borders surface or material change. Queries for the closest point, the highest surface and the
+material under a point, whatever kind of ground answers them.
 """
 
 from math import sqrt
-from typing import NamedTuple
+from typing import Any, Callable, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,8 @@ from . import surface_protocol
 from .plane_patch import SAME_HEIGHT
 from .polygon import beside, in_region, inside, Polygons, Regions
 from .water_surface import Waters
-from ..jit import borrowed, entry, kernel, literal_unroll, shared
+from ..jit import Answer, borrowed, entry, Function, kernel, literal_unroll, shared
+from ..kernel_types import Box, KindRecord, StructRecord, Vector
 from ..mechanics.vector import add_scaled, dot, scale, ZERO
 from ..state.ball import NO_PART
 
@@ -50,7 +51,7 @@ class Ground(NamedTuple):
     all ground and water but tilted planes lies between ``lowest`` and ``highest``.
     """
 
-    kinds: tuple
+    kinds: tuple[KindRecord, ...]
     borders: np.ndarray
     zones: Regions
     zone_materials: np.ndarray
@@ -61,11 +62,14 @@ class Ground(NamedTuple):
     highest: float
 
 
-def of_its_kind(law, otherwise):
-    """Kernel that calls `law` for the kind to which a part, numbered among those of all kinds, belongs."""
+def of_its_kind(law: Callable[..., Answer], otherwise: Any) -> Callable[..., Answer]:
+    """Kernel that calls `law` for the kind to which a part belongs.
+
+    The part's number is among those of all kinds.
+    """
 
     @shared
-    def asked(ground, part, *more):
+    def asked(ground: Ground, part: int, *more: Any) -> Any:
         result = otherwise
         for kind in literal_unroll(ground.kinds):
             n = surface_protocol.parts(kind)
@@ -77,11 +81,14 @@ def of_its_kind(law, otherwise):
     return named_after(law, asked)
 
 
-def part_of_its_kind(law):
-    """`of_its_kind` for a `law` that answers with a part of the kind, or -1: its number among all parts."""
+def part_of_its_kind(law: Callable[..., int]) -> Callable[[Ground, int], int]:
+    """`of_its_kind` for a `law` that answers with a part of the kind, or -1.
+
+    The answer is that part's number among those of all kinds.
+    """
 
     @shared
-    def asked(ground, part):
+    def asked(ground: Ground, part: int) -> int:
         found = NO_PART
         before = 0
         for kind in literal_unroll(ground.kinds):
@@ -96,7 +103,7 @@ def part_of_its_kind(law):
     return named_after(law, asked)
 
 
-def named_after(law, asked):
+def named_after(law: Callable[..., Any], asked: Function) -> Function:
     """Give the kernel `asked` a name and the documentation of its `law`."""
     # Compiled code of two processes may be linked in a third, by name: no two kernels may share
     # one.
@@ -126,8 +133,8 @@ _smooth_surface = part_of_its_kind(surface_protocol.smooth_surface)
 # Of `parts`, `next_part` and `top` each has a loop of its own: they ask all kinds, not the one of
 # a part, and put the answers together in three ways, as a sum, the first, the highest.
 @kernel
-def parts(ground):
-    """Number of parts of all kinds."""
+def parts(ground: Ground) -> int:
+    """Count the parts of all kinds."""
     total = 0
     for kind in literal_unroll(ground.kinds):
         total += surface_protocol.parts(kind)
@@ -135,7 +142,7 @@ def parts(ground):
 
 
 @shared
-def next_part(ground, part, low, high):
+def next_part(ground: Ground, part: int, low: Vector, high: Vector) -> int:
     """First part, from `part` on, that may overlap the box from `low` to `high`, or NO_PART."""
     found = NO_PART
     before = 0
@@ -150,13 +157,13 @@ def next_part(ground, part, low, high):
 
 
 @kernel
-def goes_on(ground, part, other):
-    """Whether `other` continues the smooth surface `part`, a support, and so is no obstacle on it."""
+def goes_on(ground: Ground, part: int, other: int) -> bool:
+    """Whether `other` continues the smooth surface `part`, a support: no obstacle on it."""
     return part != NO_PART and part == _smooth_surface(ground, other)
 
 
 @shared
-def touchable(ground, part, point):
+def touchable(ground: Ground, part: int, point: Vector) -> bool:
     """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
     if len(ground.hole) > 0 and is_ground(ground, part):
         distance, normal = nearest(ground, part, point)
@@ -166,7 +173,7 @@ def touchable(ground, part, point):
 
 
 @kernel
-def in_hole(hole, place):
+def in_hole(hole: np.ndarray, place: Vector) -> bool:
     """Whether the ground at `place` is cut away by the hole."""
     dx = place[0] - hole[0]
     dy = place[1] - hole[1]
@@ -177,7 +184,7 @@ def in_hole(hole, place):
 
 
 @kernel
-def in_cup(hole, place):
+def in_cup(hole: np.ndarray, place: Vector) -> bool:
     """Whether `place` lies in the hole, below all of its rim."""
     dx = place[0] - hole[0]
     dy = place[1] - hole[1]
@@ -185,8 +192,11 @@ def in_cup(hole, place):
 
 
 @shared
-def material_of(ground, part, point):
-    """Number of the material of `part` at the contact `point`: that of the last zone there, if any."""
+def material_of(ground: Ground, part: int, point: Vector) -> int:
+    """Look up the number of the material of `part` at the contact `point`.
+
+    It is that of the last zone there, if any.
+    """
     if len(ground.zone_materials) > 0 and is_ground(ground, part):
         for back in range(1, len(ground.zone_materials) + 1):
             i = len(ground.zone_materials) - back
@@ -196,7 +206,7 @@ def material_of(ground, part, point):
 
 
 @shared
-def top(ground, x, y):
+def top(ground: Ground, x: float, y: float) -> tuple[float, int]:
     """Height of the highest surface at `x`, `y`, and its part; NO_GROUND, NO_PART without one."""
     best = NO_GROUND
     who = NO_PART
@@ -211,29 +221,32 @@ def top(ground, x, y):
 
 
 @entry
-def look_down(ground, x, y):
-    """Height of the highest surface at `x`, `y`, its part, and the number of its material, for Python."""
+def look_down(ground: Ground, x: float, y: float) -> tuple[float, int, int]:
+    """Height of the highest surface at `x`, `y`, its part, and its material's number.
+
+    For Python.
+    """
     ground = borrowed(ground)
     z, part = top(ground, x, y)
     return z, part, material_of(ground, part, (x, y, z))
 
 
 @kernel
-def around(point, reach):
+def around(point: Vector, reach: float) -> Box:
     """Box of half width `reach` around `point`."""
     box = (reach, reach, reach)
     return add_scaled(point, -1.0, box), add_scaled(point, 1.0, box)
 
 
 @kernel
-def ground_level(ground, x, y):
+def ground_level(ground: Ground, x: float, y: float) -> float:
     """Height [m] of the highest surface at `x`, `y`; 0 where there is none."""
     z, part = top(ground, x, y)
     return z if part >= 0 else 0.0
 
 
 @kernel
-def out_of_bounds(ground, x, y):
+def out_of_bounds(ground: Ground, x: float, y: float) -> float:
     """Distance [m] in plan by which the point is out of bounds.
 
     -1 within bounds, or if there are none.
@@ -244,7 +257,7 @@ def out_of_bounds(ground, x, y):
 
 
 @shared
-def is_alone(ground, part, point, radius):
+def is_alone(ground: Ground, part: int, point: Vector, radius: float) -> bool:
     """Whether a ball at `point` that touches `part` can touch no other part."""
     low, high = around(point, radius + SAME_HEIGHT)
     return (
@@ -254,7 +267,7 @@ def is_alone(ground, part, point, radius):
 
 
 @shared
-def touched(ground, point, radius, ahead):
+def touched(ground: Ground, point: Vector, radius: float, ahead: Vector) -> tuple[int, Vector]:
     """Part that supports a ball at `point`, the latest of equals, and the normal there.
 
     A part counts if its gap is within SAME_HEIGHT. Faces count where they exist `ahead`, a unit
@@ -281,11 +294,11 @@ def touched(ground, point, radius, ahead):
 
 
 @shared
-def under(ground, part, point, ahead):
-    """`nearest`, for the support `part` of a ball at `point` that moves along `ahead`, a unit vector or zero.
+def under(ground: Ground, part: int, point: Vector, ahead: Vector) -> tuple[float, Vector]:
+    """`nearest`, for the support `part` of a ball at `point` that moves along `ahead`.
 
-    On a border a flat part that continues ahead counts as flat: a corner that is passed by is no
-    edge.
+    That is a unit vector, or zero. On a border a flat part that continues ahead counts as flat: a
+    corner that is passed by is no edge.
     """
     next_point = add_scaled(point, LOOK_AHEAD, ahead)
     if flat_under(ground, part, next_point):
@@ -295,7 +308,7 @@ def under(ground, part, point, ahead):
 
 
 @kernel
-def depth(ground, point, radius):
+def depth(ground: Ground, point: Vector, radius: float) -> float:
     """Greatest penetration depth [m] of a ball at `point`; 0 where it is clear."""
     deepest = 0.0
     low, high = around(point, radius)
@@ -309,7 +322,7 @@ def depth(ground, point, radius):
 
 
 @kernel
-def room_in_plan(ground, point):
+def room_in_plan(ground: Ground, point: Vector) -> float:
     """Distance in plan of `point` from the nearest border."""
     room = 1e300
     for i in range(len(ground.borders)):
@@ -319,7 +332,7 @@ def room_in_plan(ground, point):
 
 
 @kernel
-def distance_in_plan(border, x, y):
+def distance_in_plan(border: StructRecord, x: float, y: float) -> tuple[float, Vector]:
     """Distance of `x`, `y` from a border, and the direction from there."""
     dx = x - border['start'][0]
     dy = y - border['start'][1]
@@ -338,7 +351,7 @@ def distance_in_plan(border, x, y):
 
 
 @kernel
-def slope(pull, normal):
-    """Normal and tangential part of `pull`: the press on a surface of `normal`, and the pull along it."""
+def slope(pull: Vector, normal: Vector) -> tuple[float, Vector]:
+    """Split `pull` into the press on a surface of `normal`, and the pull along it."""
     press = -dot(pull, normal)
     return press, add_scaled(pull, press, normal)

@@ -18,12 +18,13 @@ A ball is in water if its centre is. So a ball that lies in a puddle plays on, a
 down a bank is in the water where it is half under.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, Sequence
 
 import numpy as np
 
-from .polygon import beside_region, Regions, regions
+from .polygon import beside_region, Outline, Regions, regions
 from ..jit import kernel
+from ..kernel_types import Vector
 
 
 class Water(NamedTuple):
@@ -33,9 +34,9 @@ class Water(NamedTuple):
     `cut` holds polygons within, islands, where there is none at any level.
     """
 
-    polygon: tuple
+    polygon: Outline
     level: float
-    cut: tuple = ()
+    cut: tuple[Outline, ...] = ()
 
 
 class Waters(NamedTuple):
@@ -45,7 +46,7 @@ class Waters(NamedTuple):
     levels: np.ndarray
 
 
-def waters(ponds):
+def waters(ponds: Sequence[Water]) -> Waters:
     """`Waters` of `Water` records."""
     return Waters(
         regions([pond.polygon for pond in ponds], [pond.cut for pond in ponds]),
@@ -54,8 +55,8 @@ def waters(ponds):
 
 
 @kernel
-def water_at(waters, place):
-    """Number, from 1, of the water that a ball with its centre at `place` is in; 0: none."""
+def water_at(waters: Waters, place: Vector) -> int:
+    """Find the number, from 1, of the water that a ball's centre at `place` is in; 0: none."""
     for i in range(len(waters.levels)):
         if (
             place[2] < waters.levels[i]

@@ -14,8 +14,9 @@
 
 """Zones: polygons in plan that paint the ground with another material."""
 
-from typing import NamedTuple
+from typing import Any, Iterable, NamedTuple, Union
 
+from .polygon import Outline
 from ..properties.material import Material
 
 
@@ -26,10 +27,10 @@ class Zone(NamedTuple):
     """
 
     material: Material
-    polygon: tuple
-    cut: tuple = ()
+    polygon: Outline
+    cut: tuple[Outline, ...] = ()
 
 
-def zones_of(zones):
+def zones_of(zones: Iterable[Union[Zone, tuple[Any, ...]]]) -> tuple[Zone, ...]:
     """`Zone` records of `zones`, which may also be pairs of material and polygon."""
     return tuple(Zone(*zone) for zone in zones)

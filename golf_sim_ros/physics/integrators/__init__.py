@@ -24,16 +24,20 @@ from typing import Callable, NamedTuple
 
 from . import runge_kutta
 from ..jit import shared
+from ..kernel_types import BallRecord, MethodRecord, ModelRecord
 
 
 class Method(NamedTuple):
-    """Known integrator: its record type, and the name of its field for accuracy, a tolerance or step."""
+    """Known integrator: its record type, and the name of its field for accuracy.
 
-    record: Callable
+    That is a tolerance or a step.
+    """
+
+    record: Callable[..., MethodRecord]
     dial: str
 
 
-METHODS = {}
+METHODS: dict[str, Method] = {}
 
 for _module in pkgutil.iter_modules(__path__):
     _found = importlib.import_module(f'{__name__}.{_module.name}')
@@ -42,7 +46,7 @@ for _module in pkgutil.iter_modules(__path__):
 
 
 @shared
-def step(model, ball):
+def step(model: ModelRecord, ball: BallRecord) -> None:
     """Plan the ball's next segment: one step of the model's method.
 
     Writes curve, ending, integrator.

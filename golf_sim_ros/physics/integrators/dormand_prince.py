@@ -24,21 +24,22 @@ from typing import NamedTuple
 import numpy as np
 
 from . import rk4, runge_kutta
+from ..kernel_types import BallRecord
 from ..state.ball import FLIGHT
 
-TABLE = np.array(
-    [
-        [0, 0, 0, 0, 0, 0],
-        [1 / 5, 0, 0, 0, 0, 0],
-        [3 / 40, 9 / 40, 0, 0, 0, 0],
-        [44 / 45, -56 / 15, 32 / 9, 0, 0, 0],
-        [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0, 0],
-        [9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656, 0],
-        [35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84],
-    ]
-)
+# fmt: off
+TABLE = np.array([
+    [0,            0,             0,            0,          0,             0],
+    [1 / 5,        0,             0,            0,          0,             0],
+    [3 / 40,       9 / 40,        0,            0,          0,             0],
+    [44 / 45,      -56 / 15,      32 / 9,       0,          0,             0],
+    [19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729, 0,             0],
+    [9017 / 3168,  -355 / 33,     46732 / 5247, 49 / 176,   -5103 / 18656, 0],
+    [35 / 384,     0,             500 / 1113,   125 / 192,  -2187 / 6784,  11 / 84],
+])
+# fmt: on
 ERROR = np.array([71 / 57600, 0, -71 / 16695, 71 / 1920, -17253 / 339200, 22 / 525, -1 / 40])
-# of RK4 to a rule of order 3: the last stage for the fourth
+# Of RK4 to a rule of order 3: the last stage for the fourth.
 HOP_ERROR = np.array([0, 0, 0, 1 / 6, -1 / 6])
 LEAST = 1e-9  # s: a shorter step is accepted whatever its error
 MOST_GROWTH = 4.0  # from one step to the next
@@ -47,10 +48,10 @@ MOST_GROWTH = 4.0  # from one step to the next
 # hundreds.
 STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
-# of the tolerance: along the ground, where a ball must be slow to stop, errors count more,
-ON_GROUND = 0.2
-# m: and coarser steps save nothing, for events and the ground's curvature end them
-MOST_ON_GROUND = 1e-5
+# Along the ground, where a ball must be slow to stop, errors count more; and coarser steps save
+# nothing, for events and the ground's curvature end them.
+ON_GROUND = 0.2  # of the tolerance
+MOST_ON_GROUND = 1e-5  # m
 
 
 class DormandPrince(NamedTuple):
@@ -65,24 +66,26 @@ class DormandPrince(NamedTuple):
 
 
 @runge_kutta.tableau.register(DormandPrince)
-def _table(method, brief):
+def _table(method: DormandPrince, brief: bool) -> np.ndarray:
     return rk4.TABLE if brief else TABLE
 
 
 @runge_kutta.error_weights.register(DormandPrince)
-def _error_weights(method, brief):
+def _error_weights(method: DormandPrince, brief: bool) -> np.ndarray:
     return HOP_ERROR if brief else ERROR
 
 
 @runge_kutta.allowed.register(DormandPrince)
-def _allowed(method, ball):
+def _allowed(method: DormandPrince, ball: BallRecord) -> float:
     if ball['phase'] != FLIGHT:
         return min(ON_GROUND * method.tolerance, MOST_ON_GROUND)
     return LANDED * method.tolerance if ball['landed'] else method.tolerance
 
 
 @runge_kutta.first_step.register(DormandPrince)
-def _first_step(method, speed, hop, most):
+def _first_step(
+    method: DormandPrince, speed: float, hop: float, most: float
+) -> tuple[float, bool]:
     # The error of a step goes with its fifth power. Air bends the path of a fast ball over a time
     # that goes with 1/speed, gravity that of a slow one: a drive starts with 0.33 s for 5e-5 m, a
     # ball that hops with half a second. The step is a little longer than the hop: no more is used,
@@ -97,20 +100,19 @@ def _first_step(method, speed, hop, most):
 
 
 @runge_kutta.stands.register(DormandPrince)
-def _stands(method, h, error, most):
+def _stands(method: DormandPrince, h: float, error: float, most: float) -> bool:
     # At a discontinuity of a force, steps below LEAST gain nothing. A step that is not a number is
     # accepted, or the loop would not end.
     return error <= most or not h >= LEAST
 
 
 @runge_kutta.next_step.register(DormandPrince)
-def _next_step(method, h, error, most):
+def _next_step(method: DormandPrince, h: float, error: float, most: float) -> float:
     if h < LEAST:  # the discontinuity has been passed
         return MOST_GROWTH * h
-    # the stages diverged, as of a light ball that dense air stops within microseconds
-    if not error < 1e300:
+    if not error < 1e300:  # the stages diverged, as where dense air stops a light ball at once
         return 0.1 * h
-    # as good a guess as the fifth root, and cheaper
+    # As good a guess as the fifth root, and cheaper.
     grow = 0.9 / sqrt(sqrt(max(error / most, 1e-3)))
     return min(h * min(max(grow, 0.1), MOST_GROWTH), method.longest)
 

@@ -17,6 +17,7 @@
 from typing import NamedTuple
 
 from . import runge_kutta
+from ..kernel_types import BallRecord, ModelRecord
 from ..mechanics.vector import add_scaled, load, scale, store
 from ..state.ball import STEP_END
 from ..trajectory.segment import fit_segment
@@ -29,7 +30,7 @@ class SemiImplicitEuler(NamedTuple):
 
 
 @runge_kutta.step_by.register(SemiImplicitEuler)
-def _step(method, model, ball):
+def _step(method: SemiImplicitEuler, model: ModelRecord, ball: BallRecord) -> None:
     h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
     runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
     h = runge_kutta.longest(model, ball, h)

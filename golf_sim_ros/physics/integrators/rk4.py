@@ -20,9 +20,15 @@ import numpy as np
 
 from . import runge_kutta
 
-TABLE = np.array(
-    [[0, 0, 0, 0], [1 / 2, 0, 0, 0], [0, 1 / 2, 0, 0], [0, 0, 1, 0], [1 / 6, 1 / 3, 1 / 3, 1 / 6]]
-)
+# fmt: off
+TABLE = np.array([
+    [0,     0,     0,     0],
+    [1 / 2, 0,     0,     0],
+    [0,     1 / 2, 0,     0],
+    [0,     0,     1,     0],
+    [1 / 6, 1 / 3, 1 / 3, 1 / 6],
+])
+# fmt: on
 
 
 class RungeKutta4(NamedTuple):
@@ -32,17 +38,17 @@ class RungeKutta4(NamedTuple):
 
 
 @runge_kutta.tableau.register(RungeKutta4)
-def _table(method, brief):
+def _table(method: RungeKutta4, brief: bool) -> np.ndarray:
     return TABLE
 
 
 @runge_kutta.first_step.register(RungeKutta4)
-def _first_step(method, speed, hop, most):
+def _first_step(method: RungeKutta4, speed: float, hop: float, most: float) -> tuple[float, bool]:
     return method.length, False
 
 
 @runge_kutta.next_step.register(RungeKutta4)
-def _next_step(method, h, error, most):
+def _next_step(method: RungeKutta4, h: float, error: float, most: float) -> float:
     return method.length  # however short an event has made this one
 
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""One Runge-Kutta step of flight, or along ground that is not flat, by the tableau of any method."""
+"""One Runge-Kutta step of flight, or along ground that is not flat, by any method's tableau."""
 
 from math import inf, sqrt
 
@@ -20,6 +20,7 @@ import numpy as np
 
 from ..effects import gravity_at, longest_allowed_step, wind_at
 from ..jit import generic, kernel
+from ..kernel_types import BallRecord, MethodRecord, ModelRecord, MotionState
 from ..mechanics.vector import add_scaled, dot, length, load, store, sub
 from ..state.ball import FLIGHT, STEP_END
 from ..trajectory.equations_of_motion import LEAST_SPEED, rates
@@ -36,7 +37,7 @@ NO_CHANGE = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @generic
-def tableau(method, brief):
+def tableau(method: MethodRecord, brief: bool) -> np.ndarray:
     """Butcher tableau of `method`: a row a stage; the last row is the solution's weights.
 
     So the last stage is evaluated at the step's end and is the first of the next step (FSAL). For
@@ -46,19 +47,19 @@ def tableau(method, brief):
 
 
 @generic
-def error_weights(method, brief):
+def error_weights(method: MethodRecord, brief: bool) -> np.ndarray:
     """Weights of the stages in the embedded error estimate; zero where there is none."""
     return NO_ERROR
 
 
 @generic
-def allowed(method, ball):
+def allowed(method: MethodRecord, ball: BallRecord) -> float:
     """Tolerance [m] of a step of the ball."""
     return inf
 
 
 @generic
-def first_step(method, speed, hop, most):
+def first_step(method: MethodRecord, speed: float, hop: float, most: float) -> tuple[float, bool]:
     """Length [s] of the first step, and whether it is brief; see `tableau`.
 
     At `speed` [m/s] through the air, of a flight of about `hop` seconds, with a tolerance of
@@ -68,19 +69,22 @@ def first_step(method, speed, hop, most):
 
 
 @generic
-def stands(method, h, error, most):
+def stands(method: MethodRecord, h: float, error: float, most: float) -> bool:
     """Whether a step of `h` [s] with that `error` [m] is accepted at the tolerance `most`."""
     return True
 
 
 @generic
-def next_step(method, h, error, most):
-    """Length [s] of the step after one of `h` with that `error` [m], or of its repetition if rejected."""
+def next_step(method: MethodRecord, h: float, error: float, most: float) -> float:
+    """Length [s] of the step after one of `h` with that `error` [m].
+
+    Of its repetition, if it was rejected.
+    """
     return h
 
 
 @kernel
-def stage(model, ball, i, state):
+def stage(model: ModelRecord, ball: BallRecord, i: int, state: MotionState) -> None:
     """Evaluate stage `i` at `state`, position, velocity and spin in one tuple.
 
     Writes stages, evaluations.
@@ -95,7 +99,7 @@ def stage(model, ball, i, state):
 
 
 @kernel
-def mix(ball, weights, count, h):
+def mix(ball: BallRecord, weights: np.ndarray, count: int, h: float) -> MotionState:
     """Linear combination of the first `count` stages by `weights`, times `h`, as one tuple."""
     k = ball['stages']
     x = y = z = u = v = w = p = q = r = 0.0
@@ -114,7 +118,7 @@ def mix(ball, weights, count, h):
 
 
 @kernel
-def state_after(ball, change):
+def state_after(ball: BallRecord, change: MotionState) -> MotionState:
     """State of the ball plus `change`, as one tuple."""
     a = ball['position']
     b = ball['velocity']
@@ -133,7 +137,7 @@ def state_after(ball, change):
 
 
 @kernel
-def error_in_metres(ball, weights, h):
+def error_in_metres(ball: BallRecord, weights: np.ndarray, h: float) -> float:
     """Embedded error estimate [m]: a weighted Euclidean norm."""
     e = mix(ball, weights, len(weights), h)
     return sqrt(
@@ -146,10 +150,11 @@ def error_in_metres(ball, weights, h):
 
 
 @kernel
-def start(model, ball, last):
-    """Begin with the first stage: after a whole step that step's `last` one (FSAL), else a new evaluation.
+def start(model: ModelRecord, ball: BallRecord, last: int) -> None:
+    """Begin with the first stage.
 
-    Writes stages, evaluations.
+    After a whole step it is that step's `last` one (FSAL), else a new evaluation. Writes stages,
+    evaluations.
     """
     goes_on = (
         ball['step'] > 0.0
@@ -163,8 +168,11 @@ def start(model, ball, last):
 
 
 @kernel
-def longest(model, ball, wanted):
-    """Longest step [s], `wanted` at most, that can't overlook any effect, by the rates of the first stage."""
+def longest(model: ModelRecord, ball: BallRecord, wanted: float) -> float:
+    """Longest step [s], `wanted` at most, that can't overlook any effect.
+
+    It is found by the rates of the first stage.
+    """
     if ball['phase'] != FLIGHT:
         return wanted
     state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
@@ -174,7 +182,7 @@ def longest(model, ball, wanted):
 
 
 @kernel
-def airspeed(model, ball):
+def airspeed(model: ModelRecord, ball: BallRecord) -> float:
     """Airspeed [m/s] of the ball."""
     return length(
         sub(
@@ -185,8 +193,11 @@ def airspeed(model, ball):
 
 
 @kernel
-def hop(model, ball):
-    """Estimate of the time [s] for which a ball that has just left a surface stays off it, without air."""
+def hop(model: ModelRecord, ball: BallRecord) -> float:
+    """Estimate of the time [s] for which a ball that has just left a surface stays off it.
+
+    Without air.
+    """
     normal = load(ball['normal'])
     pressing = -dot(gravity_at(model.effects, load(ball['position'])), normal)
     leaving = dot(load(ball['velocity']), normal)
@@ -194,7 +205,7 @@ def hop(model, ball):
 
 
 @generic
-def step_by(method, model, ball):
+def step_by(method: MethodRecord, model: ModelRecord, ball: BallRecord) -> None:
     """Plan the next segment: one step from the ball's state.
 
     Writes curve, ending, integrator.

@@ -27,15 +27,36 @@ and nothing here imports numba before `compiled` is called:
 =============  =========================================================================
 """
 
+from __future__ import annotations
+
 import inspect
 import time
+from typing import Any, Callable, cast, ParamSpec, Protocol, TypeVar
 
 KERNEL, SHARED, ENTRY = 'kernel', 'shared', 'entry'
-ROLES = {}  # by function: what it is compiled as
-GENERICS = []
+Function = TypeVar('Function', bound=Callable[..., Any])
+Parameters = ParamSpec('Parameters')
+Answer = TypeVar('Answer', covariant=True)
+Record = TypeVar('Record')
 
 
-def kernel(function):
+class GenericKernel(Protocol[Parameters, Answer]):
+    """Function that `generic` makes: `cases` holds its bodies by record type."""
+
+    cases: dict[type, Callable[..., Any]]
+    default: Callable[..., Any]
+    register: Callable[[type], Callable[[Function], Function]]
+    __name__: str
+
+    def __call__(self, *args: Parameters.args, **kwargs: Parameters.kwargs) -> Answer:
+        """Run the body for the type of the first argument."""
+
+
+ROLES: dict[Callable[..., Any], str] = {}  # by function: what it is compiled as
+GENERICS: list[GenericKernel[..., Any]] = []
+
+
+def kernel(function: Function) -> Function:
     """Mark `function` as a kernel for other kernels, inlined where it is called.
 
     It is compiled for every combination of argument types. Inlined, a shot takes a quarter of the
@@ -45,58 +66,66 @@ def kernel(function):
     return function
 
 
-def shared(function):
+def shared(function: Function) -> Function:
     """Mark `function` as a kernel that is not inlined: large, or seldom run."""
     ROLES[function] = SHARED
     return function
 
 
-def entry(function):
-    """Mark `function` as a kernel that Python can call, too: compiled by `compiled`, else as it is."""
+def entry(function: Function) -> Function:
+    """Mark `function` as a kernel that Python can call, too.
+
+    It is compiled by `compiled`, else runs as it is.
+    """
     ROLES[function] = ENTRY
     return function
 
 
-def generic(default):
+def generic(default: Callable[Parameters, Answer]) -> GenericKernel[Parameters, Answer]:
     """Make `default` a function with another body for every registered record type.
 
     ``@name.register(Record)`` adds a body. Like functools.singledispatch, but kernels can call it
     and the choice is made when they compile.
     """
-    cases = {}
+    cases: dict[type, Callable[..., Any]] = {}
 
-    def call(*args):
+    def call(*args: Any) -> Any:
         return cases.get(type(args[0]), default)(*args)
 
-    def register(record):
+    def register(record: type) -> Callable[[Function], Function]:
         if record in cases:
             raise TypeError(f'{record.__name__} already has a {default.__name__}')
         return lambda function: add_case(record, function)
 
-    def add_case(record, function):
+    def add_case(record: type, function: Function) -> Function:
         if parameters(default) != parameters(function):
             raise TypeError(
                 f'{default.__name__} of {record.__name__} must have the parameters '
                 f'{parameters(default)}'
             )
-        return cases.setdefault(record, function)
+        cases[record] = function
+        return function
 
-    call.register, call.cases, call.default = register, cases, default
+    made = cast('GenericKernel[Parameters, Answer]', call)
+    made.register, made.cases, made.default = register, cases, default
     call.__doc__, call.__name__, call.__module__ = (
         default.__doc__,
         default.__name__,
         default.__module__,
     )
-    GENERICS.append(call)
-    return call
+    GENERICS.append(made)
+    return made
 
 
-def parameters(function):
-    """Names of a function's parameters, as text: numba requires the same ones of all bodies of a generic."""
+def parameters(function: Callable[..., Any]) -> str:
+    """Names of a function's parameters, as text.
+
+    numba requires the same ones of all bodies of a generic.
+    """
     return ', '.join(inspect.signature(function).parameters)
 
 
-def literal_unroll(records):
+def literal_unroll(records: Record) -> Record:
     """Unroll a loop over the tuple `records` by their types, in compiled code.
 
     The tuple itself in Python.
@@ -104,7 +133,7 @@ def literal_unroll(records):
     return records
 
 
-def borrowed(record):
+def borrowed(record: Record) -> Record:
     """Pass `record` by reference, uncounted: an entry's argument, which the caller keeps alive.
 
     numba hands a record from kernel to kernel by value, a model with its dozens of arrays as
@@ -114,15 +143,15 @@ def borrowed(record):
     return record
 
 
-def cycles():
-    """Processor's cycle counter, of a constant rate.
+def cycles() -> int:
+    """Read the processor's cycle counter, of a constant rate.
 
     In plain Python nanoseconds, where unknown 0.
     """
     return time.perf_counter_ns()
 
 
-def compiled(function):
+def compiled(function: Function) -> Function:
     """Callable with the machine code of an entry.
 
     Imports numba, and compiles what is not in the cache.

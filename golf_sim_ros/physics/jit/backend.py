@@ -14,12 +14,17 @@
 
 """Compilation of kernels with numba, on demand: the only way from `ROLES` to machine code."""
 
+from __future__ import annotations
+
 import os
+from typing import Any, Callable
 
 from . import (
     borrowed,
     cycles,
     ENTRY,
+    Function,
+    GenericKernel,
     GENERICS,
     literal_unroll,
     parameters,
@@ -46,21 +51,24 @@ from .kept import keep_compiled
 # No signed zeros: results differ in the sign of zero only, and an effect that adds zero costs no
 # addition.
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
-DISPATCHERS = {}  # by function
-REGISTERED = set()  # generics that are declared to numba
+DISPATCHERS: dict[Callable[..., Any], Any] = {}  # by function
+REGISTERED: set[GenericKernel[..., Any]] = set()  # generics that are declared to numba
 CACHE = cache_.folder()
 
 if CACHE.path and not os.environ.get('NUMBA_CACHE_DIR'):
     numba.config.CACHE_DIR = str(CACHE.path)
 
 
-def dispatcher(function):
-    """Dispatcher of the entry `function`: compiles it for the types of a call, or loads it from the cache."""
+def dispatcher(function: Function) -> Function:
+    """Dispatcher of the entry `function`.
+
+    It compiles it for the types of a call, or loads it from the cache.
+    """
     declare()
     return DISPATCHERS[function]
 
 
-def declare():
+def declare() -> None:
     """Declare all kernels and generics to numba.
 
     Effects may have been registered since the last time.
@@ -78,8 +86,8 @@ def declare():
             declare_generic(generic)
 
 
-def new_dispatcher(function, role):
-    """New dispatcher of `function` in its `role`, with nothing compiled yet."""
+def new_dispatcher(function: Callable[..., Any], role: str) -> Any:
+    """Make a dispatcher of `function` in its `role`, with nothing compiled yet."""
     if role == ENTRY:
         return keep_compiled(numba.njit(**OPTIONS)(function), CACHE)
     made = numba.njit(no_cpython_wrapper=True, **linking.options(role == SHARED), **OPTIONS)(
@@ -88,28 +96,33 @@ def new_dispatcher(function, role):
     return linking.inner(made)
 
 
-def unroll(function):
-    """Bind numba's own `literal_unroll` in a function's module, where numba looks for it by identity."""
+def unroll(function: Callable[..., Any]) -> None:
+    """Bind numba's own `literal_unroll` in a function's module.
+
+    numba looks for it there, by identity.
+    """
     names = function.__globals__
     if names.get('literal_unroll') is literal_unroll:
         names['literal_unroll'] = numba.literal_unroll
 
 
-def declare_generic(generic):
+def declare_generic(generic: GenericKernel[..., Any]) -> None:
     """Declare a generic to numba as an overload on the type of its first argument."""
 
-    def pick(record, *_):
-        return generic.cases.get(getattr(record, 'instance_class', None), generic.default)
+    def pick(record: Any, *_: Any) -> Callable[..., Any]:
+        kind: Any = getattr(record, 'instance_class', None)
+        return generic.cases.get(kind, generic.default)
 
     names = parameters(generic.default)
-    scope = {'pick': pick, '__name__': generic.__module__}
+    scope: dict[str, Any] = {'pick': pick, '__name__': generic.__module__}
     choose = f'choose_{generic.__name__}'
     exec(f'def {choose}({names}): return pick({names})', scope)
     options = {'no_cpython_wrapper': True, **linking.options(False)}
-    overload(generic, jit_options=options)(scope[choose])
+    # Not strict: that compares annotations, too; `parameters` has compared what counts.
+    overload(generic, jit_options=options, strict=False)(scope[choose])
 
 
-def stand_for(function, intrinsic):
+def stand_for(function: Callable[..., Any], intrinsic: Any) -> None:
     """Make compiled kernels use an `intrinsic` where they call a plain `function`."""
     infer_global(function, cpu_target.typing_context.resolve_value_type(intrinsic))
 

@@ -24,6 +24,7 @@ import hashlib
 from importlib import import_module, metadata
 import importlib.util
 import os
+from pathlib import Path
 import pickle
 import platform
 import signal
@@ -31,7 +32,7 @@ import subprocess
 import sys
 import tempfile
 from threading import Event, Thread
-from typing import Callable, NamedTuple
+from typing import Any, Callable, cast, IO, Iterable, Iterator, Mapping, NamedTuple, Optional
 
 from . import cache, GENERICS, Unavailable
 
@@ -39,10 +40,13 @@ COMPILING, LOADING, READY, BUILD_FAILED = 'compiling', 'loading', 'ready', 'fail
 ORDINARY_LINKING = {'GOLF_SIM_ROS_ORDINARY_LINKING': '1'}
 PROGRAM = 'golf_sim_ros.physics.jit.build'
 LOW = 10  # niceness of a child that is not urgent: a tenth of the time of others, but never none
-INSTALL = "pip install numba, in a virtual environment made with 'python3 -m venv --system-site-packages'"
+INSTALL = (
+    'pip install numba, in a virtual environment made with '
+    "'python3 -m venv --system-site-packages'"
+)
 
 
-def missing():
+def missing() -> str:
     """Reason why there can be no compiled engine here, one line, or ''.
 
     Numba is not imported for it.
@@ -58,16 +62,19 @@ class Part(NamedTuple):
     """Program called `key`, all of which ``function(*args)`` runs."""
 
     key: str
-    function: Callable
-    args: tuple
+    function: Callable[..., Any]
+    args: tuple[Any, ...]
 
 
 class Job(NamedTuple):
-    """Job of a child of some `niceness`: import `modules`, which may register effects, and run `parts`."""
+    """Job of a child of some `niceness`.
+
+    It imports `modules`, which may register effects, and runs `parts`.
+    """
 
     niceness: int
-    modules: tuple
-    parts: tuple
+    modules: tuple[str, ...]
+    parts: tuple[Part, ...]
 
 
 class Build:
@@ -78,17 +85,18 @@ class Build:
     done, `reason` one line that says why it failed.
     """
 
-    def __init__(self, urgent, *parts):
+    def __init__(self, urgent: bool, *parts: Part) -> None:
         self.state, self.progress, self.reason = COMPILING, 0.0, ''
-        self.ended, self.child = Event(), None
+        self.ended = Event()
+        self.child: Optional[subprocess.Popen[bytes]] = None
         self.job = Job(0 if urgent else LOW, foreign_modules(), parts)
         Thread(target=self._run, name='build of the physics', daemon=True).start()
 
-    def wait(self, seconds=None):
+    def wait(self, seconds: Optional[float] = None) -> bool:
         """Wait for the end of the build, `seconds` at most; whether it has ended."""
         return self.ended.wait(seconds)
 
-    def _run(self):
+    def _run(self) -> None:
         try:
             self._compile_and_load()
             self.state = READY
@@ -100,7 +108,7 @@ class Build:
         finally:
             self.ended.set()
 
-    def _compile_and_load(self):
+    def _compile_and_load(self) -> None:
         if missing():
             raise Unavailable(missing())
         if not all(is_kept(part.key) for part in self.job.parts):
@@ -113,7 +121,7 @@ class Build:
         self.state = LOADING
         run_child(self.job.parts)
 
-    def _compile(self, environment):
+    def _compile(self, environment: Mapping[str, str]) -> str:
         """Compile in a child; the reason why it could not, or ''."""
         if '__main__' in self.job.modules:
             raise Unavailable(
@@ -125,7 +133,7 @@ class Build:
         except (pickle.PicklingError, AttributeError, TypeError) as error:
             raise Unavailable(f'the scene cannot be handed to a child process: {error}') from None
         with tempfile.TemporaryFile() as errors:
-            self.child = subprocess.Popen(
+            self.child = child = subprocess.Popen(
                 [sys.executable, '-m', PROGRAM],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
@@ -136,44 +144,51 @@ class Build:
                     'PYTHONPATH': os.pathsep.join(filter(None, sys.path)),
                 },
             )
-            with self.child:
-                self._hand_over(job)
-                for line in self.child.stdout:
+            with child:
+                _hand_over(cast(IO[bytes], child.stdin), job)
+                for line in cast(IO[bytes], child.stdout):
                     self.progress = float(line)
             errors.seek(0)
-            return trouble(self.child.returncode, errors.read().decode(errors='replace'))
-
-    def _hand_over(self, job):
-        """Give the child its job; the pipe stays open, for the child ends with it."""
-        try:
-            self.child.stdin.write(job)
-            self.child.stdin.flush()
-        except BrokenPipeError:
-            pass  # the child has ended, and its exit code says why
+            return trouble(child.returncode, errors.read().decode(errors='replace'))
 
 
-def foreign_modules():
-    """Names of the modules of other packages that add to the physics: effects that users have registered."""
+def _hand_over(stdin: IO[bytes], job: bytes) -> None:
+    """Give a child its job; the pipe stays open, for the child ends with it."""
+    try:
+        stdin.write(job)
+        stdin.flush()
+    except BrokenPipeError:
+        pass  # the child has ended, and its exit code says why
+
+
+def foreign_modules() -> tuple[str, ...]:
+    """Names of the modules of other packages that add to the physics.
+
+    Those of effects that users have registered.
+    """
     names = {function.__module__ for generic in GENERICS for function in generic.cases.values()}
     return tuple(
         sorted(name for name in names if name.partition('.')[0] != __name__.partition('.')[0])
     )
 
 
-def is_kept(key):
+def is_kept(key: str) -> bool:
     """Whether the program called `key` has been compiled on this machine, and is in the cache."""
     return not missing() and cache.folder().path is not None and mark(key).exists()
 
 
-def mark(key):
+def mark(key: str) -> Path:
     """Path of the file that says that the program called `key` is in the cache."""
     made_with = [metadata.version(package) for package in ('numba', 'llvmlite', 'numpy')]
     text = ' '.join([key, platform.python_version(), *made_with, processor()])
-    return cache.folder().path / f'{hashlib.sha256(text.encode()).hexdigest()[:16]}.compiled'
+    return cache.trusted_path() / f'{hashlib.sha256(text.encode()).hexdigest()[:16]}.compiled'
 
 
-def processor():
-    """Target processor of the machine code: NUMBA_CPU_NAME, or else all that Linux reports of this one."""
+def processor() -> str:
+    """Target processor of the machine code.
+
+    NUMBA_CPU_NAME, or else all that Linux reports of this one.
+    """
     named = os.environ.get('NUMBA_CPU_NAME', '') + os.environ.get('NUMBA_CPU_FEATURES', '')
     try:
         with open('/proc/cpuinfo', encoding='utf-8') as file:
@@ -185,7 +200,7 @@ def processor():
     return f'{platform.machine()} {named or sorted(about)}'
 
 
-def trouble(code, errors):
+def trouble(code: int, errors: str) -> str:
     """Reason of a child's failure in one line, from its exit code and the last of its output.
 
     '' if none.
@@ -194,17 +209,17 @@ def trouble(code, errors):
         return ''
     lines = [line.strip() for line in errors.splitlines() if line.strip()]
     ended = f'exit code {code}' if code > 0 else f'killed by {signal.Signals(-code).name}'
-    errors = [line for line in lines if 'rror' in line]  # after which there may be frames
-    last = (errors or lines or ['it did not say why'])[-1][:200]
+    named = [line for line in lines if 'rror' in line]  # after which there may be frames
+    last = (named or lines or ['it did not say why'])[-1][:200]
     return f'{numba_version()} could not compile the physics ({ended}): {last}'
 
 
-def numba_version():
+def numba_version() -> str:
     """Numba's name and version."""
     return f'numba {metadata.version("numba")}'
 
 
-def main():
+def main() -> int:
     """Run the job that comes in, as long as who sent it lives."""
     # Not sys.stdin: the lock of its buffer, in which the thread would wait, is in the way at the
     # end.
@@ -224,22 +239,25 @@ def main():
 
 
 @contextmanager
-def is_alone_in_process():
-    """Lock across processes: no other child compiles meanwhile, for it may be what this one needs, too."""
+def is_alone_in_process() -> Iterator[None]:
+    """Lock across processes: no other child compiles meanwhile.
+
+    For that may be what this one needs, too.
+    """
     import fcntl
 
-    with open(cache.folder().path / 'lock', 'w') as file:
+    with open(cache.trusted_path() / 'lock', 'w') as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 
-def run_child(parts):
+def run_child(parts: Iterable[Part]) -> None:
     """Run `parts`, which compiles or loads what they need."""
     for part in parts:
         part.function(*part.args)
 
 
-def end_with_parent():
+def end_with_parent() -> None:
     """End this process as soon as its stdin is closed: its parent has ended."""
     while os.read(0, 1):
         pass

@@ -24,11 +24,11 @@ import os
 from pathlib import Path
 import stat
 import tempfile
-from typing import NamedTuple, Optional
+from typing import NamedTuple, NoReturn, Optional
 
 NAME = 'golf_sim_ros'
 CACHE_VARIABLE = 'GOLF_SIM_ROS_CACHE'
-# elsewhere these bits mean nothing
+# Elsewhere than on POSIX these bits mean nothing.
 OTHERS_WRITE = (stat.S_IWGRP | stat.S_IWOTH) * (os.name == 'posix')
 OTHERS_ENTER = stat.S_IXGRP | stat.S_IXOTH
 LINKS = 40  # links of a path that are followed: as many as Linux does
@@ -59,7 +59,7 @@ class _Refused(Exception):
 
 
 @lru_cache(maxsize=None)
-def source_key():
+def source_key() -> str:
     """Hash of all sources of the physics, as they were at the first call."""
     top = Path(__file__).parent.parent
     digest = hashlib.sha256()
@@ -69,7 +69,7 @@ def source_key():
     return digest.hexdigest()[:16]
 
 
-def folder():
+def folder() -> Cache:
     """`Cache` for this user and these sources, created where there is none.
 
     The variable GOLF_SIM_ROS_CACHE names the folder, or else NUMBA_CACHE_DIR does, which holds no
@@ -91,7 +91,15 @@ def folder():
     return Cache(None, False, f'no folder for compiled code: {"; ".join(reasons)}')
 
 
-def _named(variable, inside):
+def trusted_path() -> Path:
+    """Path of `folder`; RuntimeError, with the reason, where there is none."""
+    found = folder()
+    if found.path is None:
+        raise RuntimeError(found.reason)
+    return found.path
+
+
+def _named(variable: str, inside: str) -> Cache:
     """`Cache` in the folder that a variable of the environment names, or none."""
     try:
         named = os.path.expanduser(os.environ[variable])
@@ -102,7 +110,7 @@ def _named(variable, inside):
         return Cache(None, False, f'{variable}: {refused}')
 
 
-def _user_cache():
+def _user_cache() -> Path:
     """Folder in the user's cache; a home that does not exist is not created."""
     cache = os.environ.get('XDG_CACHE_HOME', '')
     if os.path.isabs(cache):
@@ -115,13 +123,13 @@ def _user_cache():
     return Path(home) / '.cache' / NAME
 
 
-def _temporary():
+def _temporary() -> Path:
     """Folder of this user's own among the temporary ones."""
     place = os.environ.get('TMPDIR', '')
     return Path(place if os.path.isdir(place) else FALLBACK) / f'{NAME}_{_user()}'
 
 
-def _opened(path):
+def _opened(path: Path) -> Cache:
     """`Cache` at `path`, which is created, for this user alone, where there is none."""
     try:
         path = Path.cwd() / path
@@ -138,7 +146,7 @@ def _opened(path):
     return Cache(path, not reason, reason)
 
 
-def _make(path):
+def _make(path: Path) -> None:
     """Create a folder that nobody else can enter, unless something is there."""
     if not os.path.lexists(path):
         try:
@@ -147,14 +155,12 @@ def _make(path):
             pass
 
 
-def _check_way(path):
+def _check_way(path: Path) -> None:
     """Raise `_Refused` if others can change what is found at `path`.
 
-    What does not exist they can't.
-
-    Every folder and link on the way has to belong to this user or root. Others may write to none
-    of them, except to a temporary folder, where they can't remove what is not theirs (the sticky
-    bit).
+    What does not exist they can't. Every folder and link on the way has to belong to this user or
+    root. Others may write to none of them, except to a temporary folder, where they can't remove
+    what is not theirs (the sticky bit).
     """
     here, ahead, links, shared = Path(), list(path.parts), 0, False
     while ahead:
@@ -179,7 +185,7 @@ def _check_way(path):
             raise _Refused(f'{here} can be written by others')
 
 
-def _check_inside(top):
+def _check_inside(top: Path) -> None:
     """Raise `_Refused` if something in the folder `top` could have been written by others.
 
     Where others can't even enter it, they can't write its content, whatever the modes are.
@@ -200,21 +206,21 @@ def _check_inside(top):
                 raise _Refused(f'{path} can be written by others')
 
 
-def _raise(error):
+def _raise(error: OSError) -> NoReturn:
     raise error
 
 
-def _user():
+def _user() -> int:
     """Effective user id; 0, the owner of everything, where there are no user ids."""
     return os.geteuid() if os.name == 'posix' else 0
 
 
-def _is_ours(status):
+def _is_ours(status: os.stat_result) -> bool:
     """Whether something belongs to this user or root."""
     return status.st_uid in (0, _user())
 
 
-def _is_outside(status):
+def _is_outside(status: os.stat_result) -> bool:
     """Whether something belongs to a user outside of this user namespace.
 
     There the root folder of the machine may belong to nobody, which is no less safe.
@@ -229,7 +235,7 @@ def _is_outside(status):
     )
 
 
-def _unwritable(path):
+def _unwritable(path: Path) -> str:
     """Reason why nothing more can be saved in the folder `path`, or ''."""
     try:
         with tempfile.TemporaryFile(dir=path, buffering=0) as file:

@@ -21,18 +21,21 @@ Internals of numba, the same in versions 0.56 to 0.68.
 """
 
 from contextlib import contextmanager
+from typing import Any, Iterator
 
 from numba.core import caching
 
 from . import cache
 
-LOCATOR = getattr(caching, 'UserProvidedCacheLocator', None) or caching._UserProvidedCacheLocator
+LOCATOR: Any = (
+    getattr(caching, 'UserProvidedCacheLocator', None) or caching._UserProvidedCacheLocator
+)
 
 
 class _Alone(caching.FunctionCache):
     """Cache that saves code while no other process does."""
 
-    def save_overload(self, sig, data):
+    def save_overload(self, sig: Any, data: Any) -> None:
         """Save the code of one signature."""
         with one_at_a_time():
             super().save_overload(sig, data)
@@ -41,7 +44,7 @@ class _Alone(caching.FunctionCache):
 class _InPlace(LOCATOR):
     """Locator of the folder as it is."""
 
-    def ensure_cache_path(self):
+    def ensure_cache_path(self) -> None:
         """Leave the folder alone: numba would try to write there."""
 
 
@@ -54,24 +57,24 @@ class _ReadOnly(caching.FunctionCache):
 
     _impl_class = _Found
 
-    def save_overload(self, sig, data):
+    def save_overload(self, sig: Any, data: Any) -> None:
         """Save nothing."""
 
 
 @contextmanager
-def one_at_a_time():
+def one_at_a_time() -> Iterator[None]:
     """Lock across processes: no other one saves code in the same folder meanwhile."""
     try:
         import fcntl
     except ImportError:  # not on this system
         yield
         return
-    with open(cache.folder().path / 'keeping', 'w') as file:
+    with open(cache.trusted_path() / 'keeping', 'w') as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         yield
 
 
-def keep_compiled(dispatcher, folder):
+def keep_compiled(dispatcher: Any, folder: cache.Cache) -> Any:
     """Give the `dispatcher` of an entry a disk cache in a `cache.Cache`, read-only if that is."""
     if folder.path:
         dispatcher._cache = (_Alone if folder.writable else _ReadOnly)(dispatcher.py_func)

@@ -12,13 +12,15 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Linking of inner kernels as unoptimised drafts, which are optimised once, in the entry: internals of numba.
+"""Linking of inner kernels as unoptimised drafts, which are optimised once, in the entry.
 
-numba would optimise at every level of calls, with all that is called below. The internals used
-here are known in the versions of `KNOWN`; with others kernels are compiled the ordinary way.
+By internals of numba, which would optimise at every level of calls, with all that is called below.
+The internals used here are known in the versions of `KNOWN`; with others kernels are compiled the
+ordinary way.
 """
 
 import os
+from typing import Any
 
 import numba
 from numba.core import types
@@ -30,12 +32,12 @@ VERSION = tuple(int(part) for part in numba.__version__.split('.')[:2])
 ORDINARY = 'GOLF_SIM_ROS_ORDINARY_LINKING'  # set: numba's own way, whatever the version
 
 
-def is_known():
+def is_known() -> bool:
     """Whether the internals of this numba are known."""
     return KNOWN[0] <= VERSION < KNOWN[1] and not os.environ.get(ORDINARY)
 
 
-def options(apart):
+def options(apart: bool) -> dict[str, Any]:
     """Options with which numba compiles an inner kernel; `apart`: it is called, not inlined."""
     if not is_known():
         return {}  # forceinline would take ten times as long: all is optimised at every level
@@ -43,7 +45,7 @@ def options(apart):
     return {'pipeline_class': _DraftingApart if apart else _Drafting, 'forceinline': not apart}
 
 
-def inner(dispatcher):
+def inner(dispatcher: Any) -> Any:
     """Dispatcher of a kernel that only kernels call, changed to compile as such."""
     if is_known():
         dispatcher.__class__ = _Inner
@@ -53,8 +55,11 @@ def inner(dispatcher):
 class _Inner(CPUDispatcher):
     """Dispatcher of a kernel that is compiled once for all literals of a type."""
 
-    def get_call_template(self, args, kws):
-        """Call template for these argument types, without literals: a constant needs no code of its own."""
+    def get_call_template(self, args: Any, kws: Any) -> Any:
+        """Call template for these argument types, without literals.
+
+        A constant needs no code of its own.
+        """
         return super().get_call_template(
             [types.unliteral(a) for a in args],
             {name: types.unliteral(a) for name, a in kws.items()},
@@ -66,9 +71,12 @@ if is_known():
     from numba.core.codegen import JITCodeLibrary
 
     class _Draft(JITCodeLibrary):
-        """Code that is only linked into other code: optimised and made machine code there, once."""
+        """Code that is only linked into other code.
 
-        def finalize(self):
+        It is optimised and made machine code there, once.
+        """
+
+        def finalize(self) -> None:
             self._raise_if_finalized()
             for library in dict.fromkeys(self._linking_libraries):
                 if hasattr(self, '_reload_init'):  # from numba 0.63 on
@@ -77,9 +85,12 @@ if is_known():
             self._finalized = True
 
     class _Apart(_Draft):
-        """Code that stays apart where it is linked into: LLVM would copy it to wherever it is called."""
+        """Code that stays apart where it is linked into.
 
-        def add_ir_module(self, ir_module):
+        LLVM would copy it to wherever it is called.
+        """
+
+        def add_ir_module(self, ir_module: Any) -> None:
             for function in ir_module.functions:
                 if not function.is_declaration:
                     function.attributes.add('noinline')
@@ -90,7 +101,7 @@ if is_known():
 
         library = _Draft
 
-        def compile_extra(self, func):
+        def compile_extra(self, func: Any) -> Any:
             context = self.state.targetctx
             context.get_executable = _nothing_to_execute
             self.state.library = self.library(context.codegen(), func.__qualname__)
@@ -101,7 +112,7 @@ if is_known():
 
         library = _Apart
 
-    def _nothing_to_execute(library, fndesc, env):
+    def _nothing_to_execute(library: Any, fndesc: Any, env: Any) -> Any:
         library._ensure_finalized()
         name = fndesc.qualname.split('.')[-1]
         return _dynfunc.make_function(fndesc.lookup_module(), name, '', 0, env, (library,))

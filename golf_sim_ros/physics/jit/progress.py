@@ -15,25 +15,29 @@
 """Progress of a compilation, by the functions that numba has compiled."""
 
 from contextlib import contextmanager
+from typing import Any, Iterator, TextIO
 
 from numba.core import event
 
-# functions of a first program, and of one more; each takes about as long
+# Functions of a first program, and of one more; each takes about as long.
 FUNCTIONS, MORE = 520, 90
 LEFT_TO_LINK = 0.97  # at the end everything is linked and optimised once more
 
 
 class Counter(event.Listener):
-    """Listener that writes the share done of some `programs` to `file` whenever it has grown by a percent."""
+    """Listener that writes the share done of some `programs` to `file`.
 
-    def __init__(self, file, programs):
+    Whenever it has grown by a percent.
+    """
+
+    def __init__(self, file: TextIO, programs: int) -> None:
         self.file, self.count, self.told = file, 0, 0.0
         self.functions = FUNCTIONS + MORE * (programs - 1)
 
-    def on_start(self, event):
+    def on_start(self, event: Any) -> None:
         """Count nothing: a function's compilation begins before that of those it calls."""
 
-    def on_end(self, event):
+    def on_end(self, event: Any) -> None:
         """Count a function that is compiled."""
         self.count += 1
         share = min(self.count / self.functions, LEFT_TO_LINK)
@@ -43,7 +47,7 @@ class Counter(event.Listener):
 
 
 @contextmanager
-def telling_progress(file, programs):
+def telling_progress(file: TextIO, programs: int) -> Iterator[None]:
     """Context in which lines with the share done of some `programs` are written to `file`."""
     counter = Counter(file, programs)
     event.register('numba:compile', counter)

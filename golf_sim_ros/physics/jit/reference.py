@@ -12,9 +12,10 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Intrinsics of kernels without an equivalent in Python: records by reference, the processor's cycles."""
+"""Intrinsics of kernels without an equivalent in Python: references to records, and cycles."""
 
 import platform
+from typing import Any
 
 from llvmlite import ir
 from numba.core import cgutils, types
@@ -27,12 +28,12 @@ from numba.extending import intrinsic, register_model
 class _Reference(types.Type):
     """Pointer to a named tuple that outlives it; its fields are read like the tuple's."""
 
-    def __init__(self, record):
+    def __init__(self, record: Any) -> None:
         self.record = record
         super().__init__(f'Reference({record})')
 
     @property
-    def instance_class(self):
+    def instance_class(self) -> type:
         return self.record.instance_class
 
 
@@ -40,12 +41,12 @@ class _Reference(types.Type):
 class _ReferenceModel(models.PrimitiveModel):
     """A pointer to the tuple's value."""
 
-    def __init__(self, manager, reference):
+    def __init__(self, manager: Any, reference: Any) -> None:
         value = manager.lookup(reference.record).get_value_type()
         super().__init__(manager, reference, value.as_pointer())
 
 
-def _read(field):
+def _read(field: Any) -> Any:
     """Type of a field of type `field`, read through a reference."""
     if isinstance(field, types.BaseNamedTuple):
         return _Reference(field)
@@ -60,20 +61,20 @@ class _ReferenceFields(AttributeTemplate):
 
     key = _Reference
 
-    def generic_resolve(self, reference, name):
+    def generic_resolve(self, reference: Any, name: str) -> Any:
         if name in reference.record.fields:
             return _read(reference.record.types[reference.record.fields.index(name)])
         return None
 
 
 @lower_getattr_generic(_Reference)
-def _get_field(context, builder, reference, pointer, name):
+def _get_field(context: Any, builder: Any, reference: Any, pointer: Any, name: str) -> Any:
     index = reference.record.fields.index(name)
     place = cgutils.gep_inbounds(builder, pointer, 0, index)
     return _load(context, builder, reference.record.types[index], place)
 
 
-def _load(context, builder, field, pointer):
+def _load(context: Any, builder: Any, field: Any, pointer: Any) -> Any:
     if isinstance(field, types.BaseNamedTuple):
         return pointer
     if isinstance(field, types.BaseTuple):
@@ -86,7 +87,7 @@ def _load(context, builder, field, pointer):
     return _view(context, builder, field, value) if isinstance(field, types.Array) else value
 
 
-def _view(context, builder, array, value):
+def _view(context: Any, builder: Any, array: Any, value: Any) -> Any:
     """View of the array without its owner, so that references to it are not counted."""
     view = context.make_array(array)(context, builder, value)
     view.meminfo = view.meminfo.type(None)
@@ -95,8 +96,10 @@ def _view(context, builder, array, value):
 
 
 @intrinsic
-def borrowed(typing, record):
-    def build(context, builder, signature, args):
+def borrowed(typing: Any, record: Any) -> Any:
+    """Take a record by reference, an array without its owner: see `jit.borrowed`."""
+
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         if isinstance(record, types.Array):
             return _view(context, builder, record, args[0])
         return cgutils.alloca_once_value(builder, args[0])
@@ -105,8 +108,10 @@ def borrowed(typing, record):
 
 
 @intrinsic
-def cycles(typing):
-    def build(context, builder, signature, args):
+def cycles(typing: Any) -> Any:
+    """Read the processor's cycle counter: see `jit.cycles`."""
+
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         if platform.machine() not in ('x86_64', 'AMD64'):  # elsewhere a program may not ask
             return context.get_constant(types.int64, 0)
         counter = ir.FunctionType(ir.IntType(64), ())

@@ -28,6 +28,7 @@ from typing import NamedTuple
 
 from .vector import add, add_scaled, cross, dot, length, scale, unit
 from ..jit import kernel
+from ..kernel_types import Vector
 
 MOST_EXPONENT = 690.0  # of exp in double precision
 UNREACHED = 1e300
@@ -38,18 +39,21 @@ EXACT = 1e-9
 
 
 class Braked(NamedTuple):
-    """Initial state of a decelerated motion: squares of P and Q, both unit vectors, slope G and brake a."""
+    """Initial state of a decelerated motion.
+
+    Squares of P and Q, both unit vectors, slope G and brake a.
+    """
 
     pp: float
     qq: float
-    down: tuple
-    side: tuple
+    down: Vector
+    side: Vector
     slope: float
     brake: float
 
 
 @kernel
-def decelerated(u, pull, brake, normal):
+def decelerated(u: Vector, pull: Vector, brake: float, normal: Vector) -> Braked:
     """`Braked` motion from velocity `u` [m/s] under `pull` [m/s^2] against `brake` [m/s^2].
 
     `u` and `pull` lie in the plane of `normal`. At rest it heads down the slope.
@@ -74,7 +78,7 @@ def decelerated(u, pull, brake, normal):
 
 
 @kernel
-def _sum(weight, rate, q):
+def _sum(weight: float, rate: float, q: float) -> float:
     """Integral of `weight` exp(-`rate` q) from 0 to q."""
     if weight == 0.0 or q == 0.0:
         return 0.0
@@ -86,7 +90,7 @@ def _sum(weight, rate, q):
 
 
 @kernel
-def _shrunk(weight, rate, q):
+def _shrunk(weight: float, rate: float, q: float) -> float:
     """Value of `weight` exp(-`rate` q), without overflow or infinity times zero."""
     if weight == 0.0 or (q == inf and rate > 0.0):
         return 0.0
@@ -96,13 +100,13 @@ def _shrunk(weight, rate, q):
 
 
 @kernel
-def starts_at_rest(motion):
+def starts_at_rest(motion: Braked) -> bool:
     """Whether the particle is at rest at the start."""
     return motion.pp + motion.qq == 0.0
 
 
 @kernel
-def stops(motion):
+def stops(motion: Braked) -> bool:
     """Whether the particle comes to a stop."""
     if starts_at_rest(motion):
         return False
@@ -112,7 +116,7 @@ def stops(motion):
 
 
 @kernel
-def after(motion, q):
+def after(motion: Braked, q: float) -> tuple[float, Vector, Vector]:
     """Time, velocity and displacement at the parameter `q`."""
     slower = motion.brake - motion.slope
     faster = motion.brake + motion.slope
@@ -135,7 +139,7 @@ def after(motion, q):
 
 
 @kernel
-def rate(motion, velocity):
+def rate(motion: Braked, velocity: Vector) -> Vector:
     """Acceleration at `velocity`.
 
     At rest the limit with which the particle comes to rest or leaves it.
@@ -153,7 +157,7 @@ def rate(motion, velocity):
 
 
 @kernel
-def half_way(motion, q):
+def half_way(motion: Braked, q: float) -> float:
     """Parameter at about half the time to `q`, or, where that is infinite, at half the speed."""
     if q < inf:
         return 0.5 * q
@@ -166,7 +170,7 @@ def half_way(motion, q):
 
 
 @kernel
-def parameter_at(motion, time):
+def parameter_at(motion: Braked, time: float) -> float:
     """Parameter q at `time` [s], which must lie before the stop.
 
     Newton's method, safeguarded by a bracket. From far beyond, where time grows exponentially, it

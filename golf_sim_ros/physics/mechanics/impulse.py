@@ -23,6 +23,7 @@ from typing import NamedTuple
 
 from .vector import add_scaled, cross, dot, length, load, scale, store
 from ..jit import kernel
+from ..kernel_types import BallProperties, BallRecord, Vector
 
 
 class ContactProperties(NamedTuple):
@@ -40,7 +41,7 @@ class ContactProperties(NamedTuple):
 
 
 @kernel
-def slip(velocity, spin, normal, radius):
+def slip(velocity: Vector, spin: Vector, normal: Vector, radius: float) -> Vector:
     """Slip [m/s]: tangential velocity of the ball's material point at the contact of `normal`."""
     return add_scaled(
         add_scaled(velocity, -dot(velocity, normal), normal), -radius, cross(spin, normal)
@@ -48,10 +49,13 @@ def slip(velocity, spin, normal, radius):
 
 
 @kernel
-def friction(bond, strength, sliding):
-    """Tangential impulse [N s] against the slip `sliding`, for a normal impulse of `strength` [N s]."""
-    # A tangential impulse turns the ball, too: the effective mass at the contact point is k / (1 +
-    # k) of the mass, with k the moment of inertia over m r^2.
+def friction(bond: ContactProperties, strength: float, sliding: Vector) -> Vector:
+    """Tangential impulse [N s] against the slip `sliding`.
+
+    `strength` [N s] is the normal impulse.
+    """
+    # A tangential impulse turns the ball, too: the effective mass at the contact point is
+    # k / (1 + k) of the mass, with k the moment of inertia over m r^2.
     grip = (1.0 + bond.tangential) * bond.mass * bond.inertia / (1.0 + bond.inertia)
     needed = grip * length(sliding)
     if needed > bond.friction * strength:
@@ -60,7 +64,9 @@ def friction(bond, strength, sliding):
 
 
 @kernel
-def impulse(bond, velocity, spin, normal, radius):
+def impulse(
+    bond: ContactProperties, velocity: Vector, spin: Vector, normal: Vector, radius: float
+) -> Vector:
     """Impulse [N s] on a ball that hits a surface of `normal` at the relative velocity `velocity`.
 
     For two balls `spin` is the sum of both spins: each turns its own surface at the contact.
@@ -72,7 +78,9 @@ def impulse(bond, velocity, spin, normal, radius):
 
 
 @kernel
-def after_impulse(velocity, spin, push, normal, record):
+def after_impulse(
+    velocity: Vector, spin: Vector, push: Vector, normal: Vector, record: BallProperties
+) -> tuple[Vector, Vector]:
     """Velocity and spin after the impulse `push` [N s] at the contact point of `normal`."""
     turn = scale(-record.radius, cross(normal, push))
     inertia = record.inertia * record.mass * record.radius * record.radius
@@ -80,7 +88,7 @@ def after_impulse(velocity, spin, push, normal, record):
 
 
 @kernel
-def apply_impulse(ball, push, normal, record):
+def apply_impulse(ball: BallRecord, push: Vector, normal: Vector, record: BallProperties) -> None:
     """Apply the impulse `push` [N s] at the contact point of `normal`. Writes velocity, spin."""
     velocity, spin = after_impulse(
         load(ball['velocity']), load(ball['spin']), push, normal, record

@@ -16,20 +16,23 @@
 
 from math import sqrt
 
+import numpy as np
+
 from ..jit import kernel
+from ..kernel_types import Vector
 
 ZERO = (0.0, 0.0, 0.0)
 UP = (0.0, 0.0, 1.0)
 
 
 @kernel
-def load(row):
+def load(row: np.ndarray) -> Vector:
     """Load an array of three as a tuple."""
     return row[0], row[1], row[2]
 
 
 @kernel
-def store(row, a):
+def store(row: np.ndarray, a: Vector) -> None:
     """Store the tuple `a` in an array of three, `row`. Writes row."""
     row[0] = a[0]
     row[1] = a[1]
@@ -37,50 +40,50 @@ def store(row, a):
 
 
 @kernel
-def add(a, b):
+def add(a: Vector, b: Vector) -> Vector:
     """Sum a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 @kernel
-def sub(a, b):
+def sub(a: Vector, b: Vector) -> Vector:
     """Difference a - b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 @kernel
-def scale(k, a):
+def scale(k: float, a: Vector) -> Vector:
     """Product k a of a number and a vector."""
     return k * a[0], k * a[1], k * a[2]
 
 
 @kernel
-def add_scaled(a, k, b):
+def add_scaled(a: Vector, k: float, b: Vector) -> Vector:
     """Sum a + k b."""
     return a[0] + k * b[0], a[1] + k * b[1], a[2] + k * b[2]
 
 
 @kernel
-def dot(a, b):
+def dot(a: Vector, b: Vector) -> float:
     """Dot product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 @kernel
-def cross(a, b):
+def cross(a: Vector, b: Vector) -> Vector:
     """Cross product."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 @kernel
-def length(a):
+def length(a: Vector) -> float:
     """Euclidean norm."""
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
 
 
 @kernel
-def unit(a, otherwise):
-    """Unit vector along `a`, or `otherwise` where `a` is zero."""
+def unit(a: Vector, otherwise: Vector) -> Vector:
+    """Scale `a` to unit length; `otherwise` where it is zero."""
     size = length(a)
     if size == 0.0:
         return otherwise
@@ -88,6 +91,6 @@ def unit(a, otherwise):
 
 
 @kernel
-def tangential(a, normal):
+def tangential(a: Vector, normal: Vector) -> Vector:
     """Component of `a` orthogonal to the unit vector `normal`."""
     return add_scaled(a, -dot(a, normal), normal)

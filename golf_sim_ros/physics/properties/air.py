@@ -41,7 +41,7 @@ class Air(NamedTuple):
     relative_humidity: float = 0.5
 
 
-def density(air):
+def density(air: Air) -> float:
     """Density [kg/m^3] of moist `air`: an ideal mixture of dry air and water vapour.
 
     The vapour's saturation pressure is Magnus's formula with the coefficients of Alduchov and
@@ -54,12 +54,12 @@ def density(air):
     return ((air.pressure - vapour) * DRY_AIR + vapour * WATER_VAPOUR) / moles
 
 
-def viscosity(air):
+def viscosity(air: Air) -> float:
     """Dynamic viscosity [Pa s] of `air` by Sutherland's law."""
     return 1.458e-6 * air.temperature**1.5 / (air.temperature + 110.4)
 
 
-def standard_atmosphere(altitude):
+def standard_atmosphere(altitude: float) -> Air:
     """Dry `Air` at `altitude` [m] of the ISO 2533 standard atmosphere (below 11 km)."""
     temperature = 288.15 - 0.0065 * altitude
     pressure = 101325.0 * (temperature / 288.15) ** 5.2558797

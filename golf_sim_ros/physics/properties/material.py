@@ -14,11 +14,12 @@
 
 """Material of a surface: restitution, friction, rolling resistance, softness."""
 
-from typing import NamedTuple
+from typing import Iterable, NamedTuple
 
 import numpy as np
 
 from ..jit import kernel
+from ..kernel_types import MaterialRecord
 
 STANDARD_GRAVITY = 9.80665  # m/s^2, CGPM 1901
 FOOT = 0.3048  # m, exact
@@ -26,11 +27,11 @@ STIMPMETER_SPEED = 1.83  # m/s: a ball leaves the 36 in bar at 6.00 ft/s (USGA)
 
 
 class Restitution(NamedTuple):
-    """Coefficient of restitution over the approach speed: ``e0 + e1 v + e2 v^2``, held at its least value.
+    """Coefficient of restitution over the approach speed: ``e0 + e1 v + e2 v^2``.
 
-    ``v`` is the normal approach speed [m/s]; ``e1`` in s/m, ``e2`` in s^2/m^2. Past the vertex of
-    the parabola, and wherever it would fall below ``floor``, the law stays constant, so it never
-    rises with speed.
+    It is held at its least value. ``v`` is the normal approach speed [m/s]; ``e1`` in s/m, ``e2``
+    in s^2/m^2. Past the vertex of the parabola, and wherever it would fall below ``floor``, the
+    law stays constant, so it never rises with speed.
     """
 
     e0: float = 0.0
@@ -82,14 +83,14 @@ class Material(NamedTuple):
     rolling_resistance: float = 0.0
     pivot_friction: float = 0.0
     softness: float = 0.0
-    color: tuple = (0.5, 0.5, 0.5)
+    color: tuple[float, float, float] = (0.5, 0.5, 0.5)
     drag: float = 0.0
     resistance_growth: float = 0.0
     ploughing: float = 0.0
 
 
-def rolling_resistance_of_stimp(stimp):
-    """Rolling resistance of a green on which a stimpmeter's ball rolls `stimp` feet."""
+def rolling_resistance_of_stimp(stimp: float) -> float:
+    """Return the rolling resistance of a green on which a stimpmeter's ball rolls `stimp` feet."""
     return STIMPMETER_SPEED * STIMPMETER_SPEED / (2 * FOOT * stimp) / STANDARD_GRAVITY
 
 
@@ -112,7 +113,7 @@ MATERIAL = np.dtype(
 )
 
 
-def table(materials):
+def table(materials: Iterable[Material]) -> np.ndarray:
     """`materials` as a structured array for kernels.
 
     Static friction is never less than dynamic friction: a contact that slips at once when it grips
@@ -136,7 +137,7 @@ def table(materials):
 
 
 @kernel
-def restitution(material, speed):
+def restitution(material: MaterialRecord, speed: float) -> float:
     """Coefficient of restitution for a normal approach `speed` [m/s]."""
     e1 = material['e1']
     e2 = material['e2']

@@ -15,5 +15,5 @@
 """Properties of water."""
 
 WATER_DENSITY = 998.0  # kg/m^3, fresh, at 20 degrees Celsius
-# of the water that a sphere displaces: so much goes along with it (Lamb, Hydrodynamics)
+# Of the water that a sphere displaces: so much goes along with it (Lamb, Hydrodynamics).
 ADDED_MASS = 0.5

@@ -14,6 +14,8 @@
 
 """Impacts of balls with balls."""
 
+import numpy as np
+
 from . import contact_set, simultaneous_impact
 from .collision_log import log_impact, NOT_A_PART
 from .time_stepping import begin_time_stepping, return_to_events
@@ -24,9 +26,10 @@ from ..collision.workspace import CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import contact_material_number, touch_down
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import Land, Vector, WorkRecord
 from ..mechanics.vector import dot, length, load, store
 from ..state.ball import FLIGHT, moves
-from ..state.events import BALL_HIT, BOUNCE
+from ..state.events import BALL_HIT, BOUNCE, Log
 from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import mark_moved_by_ball
@@ -38,12 +41,16 @@ LEAST_LOGGED_APPROACH = 0.1
 
 
 @ball_interactions.resolve_ball_impact.register(MultiBallWorkspace)
-def _resolve_ball_impact(work, land, balls, i, now, log):
+def _resolve_ball_impact(
+    work: MultiBallWorkspace, land: Land, balls: np.ndarray, i: int, now: float, log: Log
+) -> None:
     collide_balls(land, balls, i, now, work, log)
 
 
 @shared
-def collide_balls(land, balls, i, now, work, log):
+def collide_balls(
+    land: Land, balls: np.ndarray, i: int, now: float, work: WorkRecord, log: Log
+) -> None:
     """Resolve the impact of ball `i` with its target, and with all that touches; it is logged.
 
     Impacts that follow each other ever faster hand the balls over to time stepping. Writes ball,
@@ -57,8 +64,8 @@ def collide_balls(land, balls, i, now, work, log):
         return  # the other ball has been given another segment since this impact was found
     stalls = now - balls[i]['begin'] < RAPID_BALL_IMPACT
     is_stepped = balls[i]['time_stepping'] or balls[j]['time_stepping']
-    # a pile passes the impulse on in its next time step: only this pair collides now
     if is_stepped:
+        # A pile passes the impulse on in its next time step: only this pair collides now.
         contact_set.add_ball_contact(land, balls, i, j, work, now)
     else:
         contact_set.collect_contacts(land, balls, work, now, 0)
@@ -77,7 +84,9 @@ def collide_balls(land, balls, i, now, work, log):
 
 
 @shared
-def resolve_contact_set(land, balls, now, work, first, log):
+def resolve_contact_set(
+    land: Land, balls: np.ndarray, now: float, work: WorkRecord, first: int, log: Log
+) -> None:
     """Resolve the impact of the involved balls at all their contacts.
 
     Logs the impacts; with the ground, those of contacts from row `first` on. Writes velocity,
@@ -108,7 +117,7 @@ def resolve_contact_set(land, balls, now, work, first, log):
 
 
 @ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
-def _log_ball_impacts(work, balls, now, log):
+def _log_ball_impacts(work: MultiBallWorkspace, balls: np.ndarray, now: float, log: Log) -> None:
     for n in range(work.count[CONTACTS]):
         row = work.contacts[n]
         if row['b'] >= 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
@@ -124,7 +133,7 @@ def _log_ball_impacts(work, balls, now, log):
 
 
 @kernel
-def store_motion_before(balls, work):
+def store_motion_before(balls: np.ndarray, work: WorkRecord) -> None:
     """Store the involved balls' velocity and spin before the impact, for the log.
 
     Writes motion_before.
@@ -136,13 +145,13 @@ def store_motion_before(balls, work):
 
 
 @kernel
-def motion_before(work, i):
+def motion_before(work: WorkRecord, i: int) -> tuple[Vector, Vector]:
     """Velocity and spin of ball `i` before the impact."""
     return load(work.motion_before[i, 0:3]), load(work.motion_before[i, 3:6])
 
 
 @kernel
-def resume_motion(land, balls, now, work, first):
+def resume_motion(land: Land, balls: np.ndarray, now: float, work: WorkRecord, first: int) -> None:
     """Choose phase and contact of the involved balls, from `first` on, after an impact.
 
     Writes phase, step, velocity, spin, micro_bounce_end, sleeps_on_ball.

@@ -12,22 +12,30 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Log of collisions: the one writer of events of impacts, with ground, balls and water, and of going out."""
+"""Log of collisions: the one writer of impacts, with ground, balls and water, and of going out."""
 
 from ..jit import kernel
+from ..kernel_types import BallRecord, Vector
 from ..mechanics.vector import load, store, ZERO
-from ..state.events import next_event, WENT_OUT
+from ..state.events import Log, next_event, WENT_OUT
 
 NOT_A_PART = -1  # sort, and material, of what is no part of the ground
 
 
 @kernel
-def log_impact(ball, instant, hit, before, push, log):
+def log_impact(
+    ball: BallRecord,
+    instant: tuple[float, int],
+    hit: tuple[int, int, int, Vector],
+    before: tuple[Vector, Vector],
+    push: Vector,
+    log: Log,
+) -> None:
     """Log an impact that has just been applied to `ball`.
 
     `instant` is the time and the ball's number; `hit` the event's kind, material and sort and the
-    normal of what is hit; `before` the velocity and spin before the impact; `push` the impulse [N
-    s].
+    normal of what is hit; `before` the velocity and spin before the impact; `push` the impulse
+    [N s].
     """
     event = next_event(log)
     event['time'] = instant[0]
@@ -45,7 +53,7 @@ def log_impact(ball, instant, hit, before, push, log):
 
 
 @kernel
-def log_out_of_bounds(ball, number, now, log):
+def log_out_of_bounds(ball: BallRecord, number: int, now: float, log: Log) -> None:
     """Log that the ball has gone out of bounds."""
     material = ball['material'] if ball['support'] >= 0 else NOT_A_PART
     motion = load(ball['velocity']), load(ball['spin'])

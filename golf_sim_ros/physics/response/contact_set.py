@@ -12,10 +12,12 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Contact set of one instant: the involved balls, and their contacts with the ground and with each other.
+"""Contact set of one instant: the involved balls, and their contacts with the ground and others.
 
 A contact set is one island: it starts with one ball and grows by whatever its balls touch.
 """
+
+import numpy as np
 
 from ..collision import ball_interactions
 from ..collision.ball_gap import position_at, velocity_at
@@ -24,6 +26,7 @@ from ..collision.workspace import CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import contact_material
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, ContactRecord, Land, MaterialRecord, Vector, WorkRecord
 from ..mechanics.vector import dot, length, load, store, sub, unit, UP, ZERO
 from ..properties.material import restitution
 from ..state.ball import FLIGHT, HOLED, moves, STEP_END
@@ -38,7 +41,7 @@ MOST_MEMBERS = 64  # involved balls of an impact
 
 
 @kernel
-def synchronize(ball, now):
+def synchronize(ball: BallRecord, now: float) -> None:
     """Bring a ball to `now` and end its segment there. Writes motion, end, ending, apex."""
     if not moves(ball['phase']):
         return
@@ -55,11 +58,13 @@ def synchronize(ball, now):
 
 
 @shared
-def collect_contacts(land, balls, work, now, known):
-    """Collect the contacts of the involved balls and of all that they touch, brought to the present.
+def collect_contacts(
+    land: Land, balls: np.ndarray, work: WorkRecord, now: float, known: int
+) -> None:
+    """Collect the contacts of the involved balls and of all that they touch.
 
-    The first `known` balls have their contacts with the ground already. Writes contacts, involved,
-    motion, end, ending, apex.
+    Those are brought to the present. The first `known` balls have their contacts with the ground
+    already. Writes contacts, involved, motion, end, ending, apex.
     """
     k = 0
     while k < work.count[INVOLVED]:
@@ -72,7 +77,7 @@ def collect_contacts(land, balls, work, now, known):
 
 
 @kernel
-def add_to_set(work, i):
+def add_to_set(work: WorkRecord, i: int) -> None:
     """Add ball `i`, which has been brought to the present, to the involved balls.
 
     Writes involved.
@@ -83,7 +88,7 @@ def add_to_set(work, i):
 
 
 @kernel
-def clear_set(work):
+def clear_set(work: WorkRecord) -> None:
     """Empty the contact set. Writes count, involved_index."""
     for k in range(work.count[INVOLVED]):
         work.involved_index[work.involved[k]] = -1
@@ -92,7 +97,7 @@ def clear_set(work):
 
 
 @kernel
-def add_contact(work, a, b, part, normal):
+def add_contact(work: WorkRecord, a: int, b: int, part: int, normal: Vector) -> int:
     """Add a contact of ball `a` with ball `b`, or with a part of the ground.
 
     Its row, or -1 when full.
@@ -115,7 +120,9 @@ def add_contact(work, a, b, part, normal):
 
 
 @ball_interactions.collect_ball_contacts.register(MultiBallWorkspace)
-def _collect_ball_contacts(work, land, balls, i, now):
+def _collect_ball_contacts(
+    work: MultiBallWorkspace, land: Land, balls: np.ndarray, i: int, now: float
+) -> None:
     k = work.involved_index[i]
     radius = land.ball.radius
     here = load(balls[i]['position'])
@@ -139,7 +146,9 @@ def _collect_ball_contacts(work, land, balls, i, now):
 
 
 @kernel
-def add_ball_contact(land, balls, i, j, work, now):
+def add_ball_contact(
+    land: Land, balls: np.ndarray, i: int, j: int, work: WorkRecord, now: float
+) -> None:
     """Add the contact of balls `i` and `j`. Writes contacts."""
     n = add_contact(
         work, i, j, -1, unit(sub(position_at(balls[i], now), position_at(balls[j], now)), UP)
@@ -153,7 +162,9 @@ def add_ball_contact(land, balls, i, j, work, now):
 
 
 @kernel
-def collect_ground_contacts(land, ball, i, work, begin):
+def collect_ground_contacts(
+    land: Land, ball: BallRecord, i: int, work: WorkRecord, begin: int
+) -> None:
     """Add the contacts of ball `i` with the ground, its support first. Writes contacts.
 
     The ball's own contacts start at row `begin`.
@@ -185,7 +196,7 @@ def collect_ground_contacts(land, ball, i, work, begin):
 
 
 @kernel
-def is_new_normal(work, begin, normal):
+def is_new_normal(work: WorkRecord, begin: int, normal: Vector) -> bool:
     """Whether no contact from row `begin` on has this `normal`."""
     for n in range(begin, work.count[CONTACTS]):
         if dot(load(work.contacts[n]['normal']), normal) > 1.0 - SAME_NORMAL:
@@ -194,7 +205,14 @@ def is_new_normal(work, begin, normal):
 
 
 @kernel
-def add_ground_contact(land, ball, i, touched, material, work):
+def add_ground_contact(
+    land: Land,
+    ball: BallRecord,
+    i: int,
+    touched: tuple[int, Vector],
+    material: MaterialRecord,
+    work: WorkRecord,
+) -> None:
     """Add the contact of ball `i` with what it touches, a part and its normal, of that `material`.
 
     Writes contacts.
@@ -211,8 +229,8 @@ def add_ground_contact(land, ball, i, touched, material, work):
 
 
 @kernel
-def separation_rate(balls, row):
-    """Normal relative velocity [m/s] of a contact: positive where it separates."""
+def separation_rate(balls: np.ndarray, row: ContactRecord) -> float:
+    """Relative velocity [m/s] of a contact along its normal: positive where it separates."""
     normal = load(row['normal'])
     rate = dot(load(balls[row['a']]['velocity']), normal)
     if row['b'] >= 0:
@@ -221,8 +239,8 @@ def separation_rate(balls, row):
 
 
 @kernel
-def count_approaching(balls, work):
-    """Number of approaching contacts.
+def count_approaching(balls: np.ndarray, work: WorkRecord) -> int:
+    """Count the approaching contacts.
 
     The support of a rolling ball approaches only by rounding.
     """

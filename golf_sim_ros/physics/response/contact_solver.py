@@ -21,6 +21,8 @@ touch. Projected Gauss-Seidel finds the impulses, starting from those of the ste
 Velocities here are those half-way through a step (leapfrog), and impulses are per mass.
 """
 
+import numpy as np
+
 from .contact_set import add_contact, is_new_normal
 from ..collision.ball_gap import position_at, velocity_at
 from ..collision.broad_phase import next_node
@@ -30,6 +32,7 @@ from ..contact.contact_state import contact_material, set_support
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallProperties, BallRecord, ContactRecord, Land, Vector, WorkRecord
 from ..mechanics.vector import (
     add,
     add_scaled,
@@ -52,12 +55,12 @@ MOST_SWEEPS = 40
 CONVERGED = 2e-5  # m/s: a sweep whose greatest impulse changes less is the last
 MOST_CORRECTIONS = 10  # sweeps over penetrations
 OVERLAP = 1e-7  # m: deeper penetration is corrected
-# least share of gravity along the normal with which a surface is a support, and no wall
+# Least share of gravity along the normal with which a surface is a support, and no wall.
 WALL = 1e-3
 
 
 @kernel
-def contact_reach(work):
+def contact_reach(work: WorkRecord) -> float:
     """Contact margin [m]: what is farther away can't be touched before the next time step."""
     fastest = 0.0
     for k in range(work.count[INVOLVED]):
@@ -66,7 +69,9 @@ def contact_reach(work):
 
 
 @kernel
-def add_ground_contacts(land, ball, i, work, reach):
+def add_ground_contacts(
+    land: Land, ball: BallRecord, i: int, work: WorkRecord, reach: float
+) -> None:
     """Add the contacts of ball `i` with the ground within `reach`. Writes contacts."""
     begin = work.count[CONTACTS]
     place = load(ball['position'])
@@ -86,7 +91,7 @@ def add_ground_contacts(land, ball, i, work, reach):
 
 
 @kernel
-def init_contact(row, gap, friction):
+def init_contact(row: ContactRecord, gap: float, friction: float) -> None:
     """Initialise a contact without impulse.
 
     Writes separation, friction, rolling_resistance, normal_impulse, tangent_impulse.
@@ -99,8 +104,10 @@ def init_contact(row, gap, friction):
 
 
 @kernel
-def neighbours_within(balls, work, i, reach, radius, now):
-    """Number of balls within `reach` of ball `i`; whether others are on their way there.
+def neighbours_within(
+    balls: np.ndarray, work: WorkRecord, i: int, reach: float, radius: float, now: float
+) -> tuple[int, bool]:
+    """Count the balls within `reach` of ball `i`; whether others are on their way there.
 
     Writes neighbours. They are in rising order: Gauss-Seidel depends on the order of contacts,
     which must not depend on the shape of the tree.
@@ -131,7 +138,9 @@ def neighbours_within(balls, work, i, reach, radius, now):
 
 
 @kernel
-def add_resting_contact(land, balls, work, i, j, now):
+def add_resting_contact(
+    land: Land, balls: np.ndarray, work: WorkRecord, i: int, j: int, now: float
+) -> None:
     """Add the contact of ball `i` with ball `j`, which is involved or asleep. Writes contacts.
 
     A sleeper is of infinite mass: in the contact it has no `b`, and its number stands in `part` as
@@ -146,14 +155,14 @@ def add_resting_contact(land, balls, work, i, j, now):
 
 
 @kernel
-def gap_rate(balls, i, j, now):
-    """Normal relative velocity [m/s] of balls `i` and `j`: positive where they separate."""
+def gap_rate(balls: np.ndarray, i: int, j: int, now: float) -> float:
+    """Rate [m/s] of the gap between balls `i` and `j`: positive where they separate."""
     normal = unit(sub(load(balls[i]['position']), position_at(balls[j], now)), UP)
     return dot(sub(load(balls[i]['velocity']), velocity_at(balls[j], now)), normal)
 
 
 @shared
-def correct_positions(balls, work):
+def correct_positions(balls: np.ndarray, work: WorkRecord) -> None:
     """Correct penetration by moving balls apart, without changing velocities.
 
     Split impulses: stabilisation that adds no energy. Writes position, position_change.
@@ -169,7 +178,7 @@ def correct_positions(balls, work):
 
 
 @kernel
-def sweep_positions(work, backward):
+def sweep_positions(work: WorkRecord, backward: bool) -> float:
     """Sweep once over all penetrations; the greatest one [m] before. Writes position_change."""
     most = 0.0
     count = work.count[CONTACTS]
@@ -195,13 +204,13 @@ def sweep_positions(work, backward):
 
 
 @kernel
-def contact_partner(row):
-    """Number of what a ball has contact with: -2 - j for ball j, else a part of the ground."""
+def contact_partner(row: ContactRecord) -> int:
+    """Give the number of what a ball touches: -2 - j for ball j, else a part of the ground."""
     return -2 - row['b'] if row['b'] >= 0 else row['part']
 
 
 @shared
-def warm_start(land, balls, work):
+def warm_start(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
     """Start from the impulses of the step before.
 
     Writes normal_impulse, tangent_impulse, solved_motion.
@@ -222,7 +231,7 @@ def warm_start(land, balls, work):
 
 
 @shared
-def store_impulses(balls, work):
+def store_impulses(balls: np.ndarray, work: WorkRecord) -> None:
     """Store the impulses for the next warm start.
 
     Writes stored_count, stored_partners, stored_impulses.
@@ -241,7 +250,7 @@ def store_impulses(balls, work):
 
 
 @kernel
-def apply_normal_impulse(work, row, change):
+def apply_normal_impulse(work: WorkRecord, row: ContactRecord, change: Vector) -> None:
     """Apply the impulse over mass `change` to both bodies of a contact. Writes solved_motion."""
     a = work.solved_motion[row['a'], 0:3]
     store(a, add(load(a), change))
@@ -251,7 +260,9 @@ def apply_normal_impulse(work, row, change):
 
 
 @kernel
-def apply_tangent_impulse(work, row, rub, record):
+def apply_tangent_impulse(
+    work: WorkRecord, row: ContactRecord, rub: Vector, record: BallProperties
+) -> None:
     """Apply the tangential impulse over mass `rub` to both bodies of a contact.
 
     Writes solved_motion.
@@ -266,7 +277,7 @@ def apply_tangent_impulse(work, row, rub, record):
 
 
 @kernel
-def relative_motion(work, row):
+def relative_motion(work: WorkRecord, row: ContactRecord) -> tuple[Vector, Vector]:
     """Relative velocity of the two bodies of a contact, and the sum of their spins."""
     velocity = load(work.solved_motion[row['a'], 0:3])
     spin = load(work.solved_motion[row['a'], 3:6])
@@ -277,7 +288,7 @@ def relative_motion(work, row):
 
 
 @shared
-def sweep_impulses(land, work, backward):
+def sweep_impulses(land: Land, work: WorkRecord, backward: bool) -> float:
     """One Gauss-Seidel sweep over all contacts; the greatest change of a normal impulse [m/s].
 
     Writes solved_motion, normal_impulse, tangent_impulse.
@@ -319,7 +330,7 @@ def sweep_impulses(land, work, backward):
 
 
 @shared
-def solve_contacts(land, balls, work):
+def solve_contacts(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
     """Solve all contacts by Gauss-Seidel sweeps.
 
     Writes normal_impulse, tangent_impulse, warm_start, solved_motion.
@@ -332,7 +343,7 @@ def solve_contacts(land, balls, work):
 
 
 @kernel
-def write_back(ball, work, i):
+def write_back(ball: BallRecord, work: WorkRecord, i: int) -> None:
     """Bring ball `i` to its solved motion, without support yet: `count_support` fills that in.
 
     Writes velocity, spin, contact, held_by, rolling_loss.
@@ -346,14 +357,17 @@ def write_back(ball, work, i):
 
 
 @kernel
-def is_pressed_by_gravity(land, ball, normal):
-    """Whether gravity presses the ball onto a surface of `normal`: a support, not a wall or a ceiling."""
+def is_pressed_by_gravity(land: Land, ball: BallRecord, normal: Vector) -> bool:
+    """Whether gravity presses the ball onto a surface of `normal`.
+
+    Then it is a support, not a wall or a ceiling.
+    """
     weight = gravity_at(land.effects, load(ball['position']))
     return -dot(weight, normal) > WALL * length(weight)
 
 
 @kernel
-def count_support(land, balls, row):
+def count_support(land: Land, balls: np.ndarray, row: ContactRecord) -> None:
     """Count a contact that presses or nearly touches as support of its balls.
 
     The most level surface is what the ball is on. Writes held_by, rolling_loss, contact.
@@ -374,7 +388,7 @@ def count_support(land, balls, row):
 
 
 @kernel
-def limit_speed(ball, speed):
+def limit_speed(ball: BallRecord, speed: float) -> None:
     """Scale the ball's velocity to `speed` [m/s], and its spin by the same factor.
 
     Writes motion.

@@ -14,6 +14,8 @@
 
 """Impact with the ground: the impulse, and whether the ball flies, slides or rolls afterwards."""
 
+import numpy as np
+
 from . import contact_set
 from .ball_impact import LEAST_LOGGED_APPROACH, resolve_contact_set, resume_motion
 from .collision_log import log_impact
@@ -32,11 +34,12 @@ from ..effects import effective_normal, gravity_at, velocity_after
 from ..effects.protocol import Hit
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, MaterialRecord, Vector, WorkRecord
 from ..mechanics.impulse import after_impulse, ContactProperties, impulse
 from ..mechanics.vector import add_scaled, dot, length, load, scale, store, sub, tangential, ZERO
 from ..properties.material import restitution
 from ..state.ball import FLIGHT
-from ..state.events import BOUNCE
+from ..state.events import BOUNCE, Log
 from ..state.transitions import take_off
 from ..trajectory.equations_of_motion import LEAST_SPEED
 from ..trajectory.shot_record import record_landing
@@ -57,7 +60,9 @@ LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 
 @shared
-def resolve_ground_impact(land, balls, i, now, work, log):
+def resolve_ground_impact(
+    land: Land, balls: np.ndarray, i: int, now: float, work: WorkRecord, log: Log
+) -> None:
     """Resolve the impact of ball `i` with its target. Writes ball, work; logs the impact.
 
     Other balls that touch it take part in the impact and become involved.
@@ -117,7 +122,7 @@ def resolve_ground_impact(land, balls, i, now, work, log):
 
 
 @kernel
-def apply_bounce(land, ball, normal, material):
+def apply_bounce(land: Land, ball: BallRecord, normal: Vector, material: MaterialRecord) -> None:
     """Apply the impulse of an impact with a surface of `normal`. Writes velocity and spin."""
     motion = load(ball['velocity']), load(ball['spin'])
     velocity, spin = bounced(land, motion, normal, material)
@@ -126,7 +131,9 @@ def apply_bounce(land, ball, normal, material):
 
 
 @kernel
-def bounced(land, motion, normal, material):
+def bounced(
+    land: Land, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
+) -> tuple[Vector, Vector]:
     """Velocity and spin after an impact of a ball of that `motion`, the two before."""
     if material['ploughing'] > 0.0:
         return ploughed(land, motion, normal, material)
@@ -157,7 +164,9 @@ def bounced(land, motion, normal, material):
 
 
 @kernel
-def ploughed(land, motion, normal, material):
+def ploughed(
+    land: Land, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
+) -> tuple[Vector, Vector]:
     """Velocity and spin after an impact with loose ground, into which the ball digs.
 
     It brakes the centre, and it rubs on the spin, each up to a stop: so it gives the ball neither
@@ -173,14 +182,21 @@ def ploughed(land, motion, normal, material):
 
 
 @kernel
-def shortened(arrow, by):
+def shortened(arrow: Vector, by: float) -> Vector:
     """Vector `arrow` shortened `by` a length, to zero at most."""
     size = length(arrow)
     return scale(max(1.0 - by / size, 0.0), arrow) if size > 0.0 else ZERO
 
 
 @kernel
-def choose_after_impact(land, ball, now, impact, normal, material):
+def choose_after_impact(
+    land: Land,
+    ball: BallRecord,
+    now: float,
+    impact: tuple[bool, float, float],
+    normal: Vector,
+    material: MaterialRecord,
+) -> None:
     """Choose between flight and contact after an impact.
 
     Writes phase, step, contact, micro_bounces, velocity, spin.
@@ -215,17 +231,20 @@ def choose_after_impact(land, ball, now, impact, normal, material):
 
 
 @kernel
-def effective_restitution(land, ball, normal, material, rebound):
+def effective_restitution(
+    land: Land, ball: BallRecord, normal: Vector, material: MaterialRecord, rebound: float
+) -> float:
     """Constant restitution with which the remaining bounces would last as long in all.
 
-    1 to follow them.
+    1 to follow them one by one.
 
     Restitution changes from e0 with the approach, by its own law and as soft turf throws a fast
-    ball up. To first order the sum of v, e v, ... is v / (1 - e0) + e1 v^2 / ((1 - e0) (1 -
-    e0^2)): that of a constant restitution, the one at an approach of v / (1 + e0). Where that is
-    much more than e0, first order does not do, and bounces are followed one by one, and so they
-    are where each brakes the ball in proportion. A turf law that does not fade with the approach
-    has no such sum at all: of the very last bounces it is left out.
+    ball up. To first order the sum of v, e v, ... is
+    v / (1 - e0) + e1 v^2 / ((1 - e0) (1 - e0^2)): that of a constant restitution, the one at an
+    approach of v / (1 + e0). Where that is much more than e0, first order does not do, and bounces
+    are followed one by one, and so they are where each brakes the ball in proportion. A turf law
+    that does not fade with the approach has no such sum at all: of the very last bounces it is
+    left out.
     """
     if rebound <= LEAST_SPEED:
         return 0.0
@@ -242,7 +261,7 @@ def effective_restitution(land, ball, normal, material, rebound):
 
 
 @kernel
-def wall_rebound(land, ball):
+def wall_rebound(land: Land, ball: BallRecord) -> float:
     """Approach speed [m/s] up to which a wall has restitution 1."""
     if surfaces.hollow(land.ground, ball['target']) == 0.0:
         return WALL_REBOUND
@@ -250,11 +269,11 @@ def wall_rebound(land, ball):
 
 
 @kernel
-def micro_bounce_threshold(land, ball):
-    """Rebound [m/s] below which the remaining bounces are summed as micro-bounces: less for a fast ball.
+def micro_bounce_threshold(land: Land, ball: BallRecord) -> float:
+    """Rebound [m/s] below which the remaining bounces are summed as micro-bounces.
 
-    The air acts on their sum at once, a little early: an error of position in proportion to the
-    square of the speed and to the square of the time that they last.
+    It is less for a fast ball. The air acts on their sum at once, a little early: an error of
+    position in proportion to the square of the speed and to the square of the time that they last.
     """
     return max(
         land.limits.settle / (1.0 + length(load(ball['velocity'])) / SLOW_FOR_AIR),
@@ -263,7 +282,7 @@ def micro_bounce_threshold(land, ball):
 
 
 @shared
-def cross_border(land, ball, now):
+def cross_border(land: Land, ball: BallRecord, now: float) -> None:
     """Find the support of a ball that has reached a border in plan.
 
     Writes motion, phase, step, contact.

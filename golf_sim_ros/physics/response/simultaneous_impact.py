@@ -12,21 +12,25 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Simultaneous impacts: contacts of one instant that share a ball, independent of their order in memory.
+"""Simultaneous impacts: contacts of one instant that share a ball.
 
-Generalized reflections (Smith, Kaufman, Vouga, Tamstorf, Grinspun, "Reflections on Simultaneous
-Impact", ACM Trans. Graph. 31 (2012) 106): the approach of all active contacts is projected out
-together with non-negative impulses, each impulse is applied 1 + e times, and that is repeated
-until no contact approaches. The projection is a linear complementarity problem, solved by
-Nesterov's accelerated projected gradient method: every contact is treated alike, so that neither
-the order in memory nor left and right count, as they would in Gauss-Seidel sweeps.
+The outcome is independent of their order in memory. Generalized reflections (Smith, Kaufman,
+Vouga, Tamstorf, Grinspun, "Reflections on Simultaneous Impact", ACM Trans. Graph. 31 (2012) 106):
+the approach of all active contacts is projected out together with non-negative impulses, each
+impulse is applied 1 + e times, and that is repeated until no contact approaches. The projection is
+a linear complementarity problem, solved by Nesterov's accelerated projected gradient method: every
+contact is treated alike, so that neither the order in memory nor left and right count, as they
+would in Gauss-Seidel sweeps.
 """
 
 from math import sqrt
 
+import numpy as np
+
 from .contact_set import separation_rate
 from ..collision.workspace import CONTACTS, INVOLVED
 from ..jit import kernel, shared
+from ..kernel_types import ContactRecord, Land, Vector, WorkRecord
 from ..mechanics.impulse import apply_impulse, ContactProperties, friction, slip
 from ..mechanics.vector import add, add_scaled, dot, length, load, scale, store, sub, ZERO
 
@@ -35,7 +39,7 @@ MOST_GRADIENT_STEPS = 3000
 
 
 @shared
-def solve_reflections(land, balls, work):
+def solve_reflections(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
     """Solve the impacts of all contacts at once.
 
     Writes velocity, spin, contacts, contact_counts, velocity_change.
@@ -63,11 +67,11 @@ def solve_reflections(land, balls, work):
 
 
 @kernel
-def project_impulses(work):
-    """Project out the approach of the active contacts, by impulses over mass: normal_impulse [m/s].
+def project_impulses(work: WorkRecord) -> None:
+    """Project out the approach of the active contacts, by impulses over mass.
 
-    Writes normal_impulse, previous_impulse, extrapolated_impulse, contact_count, contact_counts,
-    velocity_change.
+    These are normal_impulse [m/s]. Writes normal_impulse, previous_impulse, extrapolated_impulse,
+    contact_count, contact_counts, velocity_change.
     """
     contacts = work.contacts
     count = work.count[CONTACTS]
@@ -121,8 +125,8 @@ def project_impulses(work):
 
 
 @kernel
-def count_contacts(work):
-    """Number of active contacts. Writes contact_counts, contact_count.
+def count_contacts(work: WorkRecord) -> int:
+    """Count the active contacts. Writes contact_counts, contact_count.
 
     The first is that of each ball, the other that of the one of a contact's balls that has more of
     them.
@@ -146,7 +150,7 @@ def count_contacts(work):
 
 
 @kernel
-def apply_extrapolated(work):
+def apply_extrapolated(work: WorkRecord) -> None:
     """Sum up what the contacts' `extrapolated_impulse` changes of the velocities.
 
     Writes velocity_change.
@@ -164,7 +168,7 @@ def apply_extrapolated(work):
 
 
 @kernel
-def rate_change(work, row):
+def rate_change(work: WorkRecord, row: ContactRecord) -> float:
     """Change of a contact's rate [m/s] by velocity_change."""
     normal = load(row['normal'])
     change = dot(load(work.velocity_change[row['a']]), normal)
@@ -174,7 +178,7 @@ def rate_change(work, row):
 
 
 @kernel
-def apply_impulses(land, balls, work, last):
+def apply_impulses(land: Land, balls: np.ndarray, work: WorkRecord, last: bool) -> None:
     """Apply normal impulses, with restitution unless it is the `last` round, then friction.
 
     Writes motion, and normal_impulse [N s], tangent_impulse, impulse.
@@ -203,7 +207,7 @@ def apply_impulses(land, balls, work, last):
 
 
 @kernel
-def apply_to_both(land, balls, row, push):
+def apply_to_both(land: Land, balls: np.ndarray, row: ContactRecord, push: Vector) -> None:
     """Apply the impulse `push` [N s] to both bodies of a contact. Writes motion, impulse."""
     normal = load(row['normal'])
     store(row['impulse'], add(load(row['impulse']), push))
@@ -213,8 +217,8 @@ def apply_to_both(land, balls, row, push):
 
 
 @kernel
-def contact_slip(land, balls, row):
-    """Slip [m/s] of a contact: tangential velocity of `a`'s surface relative to what it touches."""
+def contact_slip(land: Land, balls: np.ndarray, row: ContactRecord) -> Vector:
+    """Slip [m/s] of a contact: tangential velocity of `a`'s surface, relative to the other's."""
     a = balls[row['a']]
     velocity = load(a['velocity'])
     spin = load(a['spin'])

@@ -26,6 +26,8 @@ free fall is exact; one that has only just joined has its velocity at the start.
 
 from math import floor
 
+import numpy as np
+
 from .contact_set import add_to_set, synchronize
 from .contact_solver import (
     add_ground_contacts,
@@ -50,6 +52,7 @@ from ..contact.contact_state import touch_down
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, WorkRecord
 from ..mechanics.vector import add_scaled, length, load, scale, store, sub, ZERO
 from ..state.ball import HOLED, JOINED, NO_PART, REST, STEP_END, STEPPED
 from ..state.transitions import come_to_rest, take_off
@@ -66,19 +69,19 @@ FREE_SPEED = 2.0  # m/s: a faster ball returns to events
 
 
 @kernel
-def next_step_time(now):
+def next_step_time(now: float) -> float:
     """Next instant of time stepping after `now`."""
     return (floor(now / TIME_STEP) + 1.0) * TIME_STEP
 
 
 @kernel
-def is_step_time(now):
+def is_step_time(now: float) -> bool:
     """Whether `now` is an instant of time stepping; exact, for the step is a power of two."""
     return floor(now / TIME_STEP) * TIME_STEP == now
 
 
 @kernel
-def begin_time_stepping(ball):
+def begin_time_stepping(ball: BallRecord) -> None:
     """Switch a ball from events to time stepping.
 
     Writes phase, pile, step, moved_by_ball, struck_at.
@@ -93,14 +96,14 @@ def begin_time_stepping(ball):
 
 
 @kernel
-def return_to_events(ball):
+def return_to_events(ball: BallRecord) -> None:
     """Switch a ball from time stepping back to events. Writes time_stepping, rapid_impacts."""
     ball['time_stepping'] = 0
     ball['rapid_impacts'] = 0
 
 
 @kernel
-def straight_segment(ball, span):
+def straight_segment(ball: BallRecord, span: float) -> None:
     """Plan a straight segment of `span` seconds. Writes curve, ending."""
     v = load(ball['velocity'])
     ball['span'] = span
@@ -111,7 +114,7 @@ def straight_segment(ball, span):
 
 
 @shared
-def touches_ball(balls, work, i, radius, now):
+def touches_ball(balls: np.ndarray, work: WorkRecord, i: int, radius: float, now: float) -> bool:
     """Whether another ball is within RESTING_GAP of ball `i`."""
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + RESTING_GAP)
@@ -129,7 +132,9 @@ def touches_ball(balls, work, i, radius, now):
 
 
 @ball_interactions.step_together.register(MultiBallWorkspace)
-def _step_together(work, land, balls, i, now):
+def _step_together(
+    work: MultiBallWorkspace, land: Land, balls: np.ndarray, i: int, now: float
+) -> bool:
     if balls[i]['time_stepping']:
         if is_step_time(now):
             solve_time_step(land, balls, now, work)
@@ -141,7 +146,7 @@ def _step_together(work, land, balls, i, now):
 
 
 @ball_interactions.wake.register(MultiBallWorkspace)
-def _wake(work, balls, radius, now):
+def _wake(work: MultiBallWorkspace, balls: np.ndarray, radius: float, now: float) -> None:
     if not work.count[ASLEEP]:
         return
     for k in range(work.count[INVOLVED]):
@@ -168,7 +173,7 @@ def _wake(work, balls, radius, now):
 
 
 @shared
-def solve_time_step(land, balls, now, work):
+def solve_time_step(land: Land, balls: np.ndarray, now: float, work: WorkRecord) -> None:
     """Solve one time step of all time-stepped balls that are due. Writes ball, work."""
     for i in range(len(balls)):
         if (
@@ -193,7 +198,7 @@ def solve_time_step(land, balls, now, work):
 
 
 @kernel
-def apply_gravity(land, balls, work, i):
+def apply_gravity(land: Land, balls: np.ndarray, work: WorkRecord, i: int) -> None:
     """Apply gravity to a ball up to half-way through its next step.
 
     Writes solved_motion, time_stepping.
@@ -209,7 +214,7 @@ def apply_gravity(land, balls, work, i):
 
 
 @shared
-def collect_resting_contacts(land, balls, work, now):
+def collect_resting_contacts(land: Land, balls: np.ndarray, work: WorkRecord, now: float) -> None:
     """Collect the contacts of the involved balls within reach; sleepers that they push join.
 
     Writes contacts, involved, neighbours, solved_motion, pile, phase, step, struck_at,
@@ -244,7 +249,7 @@ def collect_resting_contacts(land, balls, work, now):
 
 
 @kernel
-def choose_after_step(land, ball, now, work):
+def choose_after_step(land: Land, ball: BallRecord, now: float, work: WorkRecord) -> None:
     """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
 
     Writes motion, phase, step, pile, count.

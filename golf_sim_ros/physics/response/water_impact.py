@@ -18,10 +18,11 @@ from math import asin, pi, sqrt
 
 from .collision_log import log_impact, NOT_A_PART
 from ..jit import kernel, shared
+from ..kernel_types import BallProperties, BallRecord, Land, Vector
 from ..mechanics.vector import dot, length, load, scale, store, sub, UP
 from ..properties.water import ADDED_MASS, WATER_DENSITY
 from ..state.ball import FLIGHT, moves, NO_PART
-from ..state.events import WATER_HIT
+from ..state.events import Log, WATER_HIT
 from ..trajectory.shot_record import record_landing
 
 # Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998)
@@ -40,14 +41,14 @@ DEEPEST = 5.0  # m below the surface: deeper down no ball is followed
 
 
 @kernel
-def specific_gravity(record):
+def specific_gravity(record: BallProperties) -> float:
     """Specific gravity: density of the ball over that of water."""
     r = record.radius
     return record.mass / (4.0 / 3.0 * pi * r * r * r * WATER_DENSITY)
 
 
 @shared
-def resolve_water_impact(land, ball, number, now, log):
+def resolve_water_impact(land: Land, ball: BallRecord, number: int, now: float, log: Log) -> None:
     """Resolve the impact of ball `number` with water, ricochet or entry, and log it.
 
     A ball that enters shares its momentum with its added mass. Writes water, velocity, spin,
@@ -80,7 +81,7 @@ def resolve_water_impact(land, ball, number, now, log):
 
 
 @kernel
-def skips_off(land, ball, velocity, heavy):
+def skips_off(land: Land, ball: BallRecord, velocity: Vector, heavy: float) -> bool:
     """Whether a ball of specific gravity `heavy` that hits water at `velocity` ricochets."""
     speed = length(velocity)
     under = land.ground.waters.levels[ball['target'] - 1] - ball['position'][2]
@@ -92,7 +93,7 @@ def skips_off(land, ball, velocity, heavy):
 
 
 @kernel
-def leave_water(land, ball):
+def leave_water(land: Land, ball: BallRecord) -> None:
     """Take a ball that rises above the surface, a light one or one sent up, out of water.
 
     Writes water.
@@ -105,8 +106,8 @@ def leave_water(land, ball):
 
 
 @kernel
-def has_ended_in_water(land, ball):
-    """Whether a ball in water has reached ground, or is so slow that it only sinks on or floats."""
+def has_ended_in_water(land: Land, ball: BallRecord) -> bool:
+    """Whether a ball in water has reached ground, or is so slow that it only sinks or floats."""
     if ball['water'] == 0 or not moves(ball['phase']):
         return False
     if ball['phase'] != FLIGHT:

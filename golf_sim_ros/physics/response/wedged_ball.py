@@ -12,15 +12,17 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Wedged balls, held by several surfaces at once: in a groove, a corner, a slot, or blown against a wall.
+"""Wedged balls, held by several surfaces at once.
 
-Event by event their impacts would follow each other ever faster (Zeno). After MANY_RAPID_IMPACTS
-the ball is wedged: it moves in small time steps, at whose ends all its contacts are solved
-together with friction (Moreau's time stepping, see contact_solver.py), and penetration is
-corrected.
+In a groove, a corner, a slot, or blown against a wall. Event by event their impacts would follow
+each other ever faster (Zeno). After MANY_RAPID_IMPACTS the ball is wedged: it moves in small time
+steps, at whose ends all its contacts are solved together with friction (Moreau's time stepping,
+see contact_solver.py), and penetration is corrected.
 """
 
 from math import sqrt
+
+import numpy as np
 
 from .contact_solver import (
     add_ground_contacts,
@@ -35,6 +37,7 @@ from ..collision.ground_contact import HOLDING_GAP
 from ..collision.workspace import CONTACTS
 from ..contact.contact_state import touch_down
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, WorkRecord
 from ..mechanics.vector import add, length, load, store, ZERO
 from ..state.ball import NO_PART
 from ..state.transitions import come_to_rest, take_off
@@ -50,19 +53,19 @@ REST_SPEED = 1e-4  # m/s after a step: far less than the 2e-3 that gravity gives
 
 
 @kernel
-def is_wedged(ball):
+def is_wedged(ball: BallRecord) -> bool:
     """Whether several surfaces hold the ball, so that it moves in small time steps."""
     return ball['rapid_impacts'] > MANY_RAPID_IMPACTS
 
 
 @kernel
-def wedged_step_length(ball):
+def wedged_step_length(ball: BallRecord) -> float:
     """Length [s] of the next time step of a wedged ball on a segment of flight."""
     return min(WEDGED_STEP, sqrt(2.0 * STEP_PENETRATION / max(greatest_acceleration(ball), 1e-3)))
 
 
 @shared
-def step_wedged(land, balls, i, now, work):
+def step_wedged(land: Land, balls: np.ndarray, i: int, now: float, work: WorkRecord) -> None:
     """Solve the contacts of the wedged ball `i` at a time step's end.
 
     A ball with one support left, or none, is no longer wedged. Writes motion, phase, contact,

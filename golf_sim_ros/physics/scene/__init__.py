@@ -12,4 +12,4 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Input of a simulation: a course and an accuracy preset, and the record that kernels get of them."""
+"""Input of a simulation: a course, an accuracy preset, and the record of them for kernels."""

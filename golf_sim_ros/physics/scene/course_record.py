@@ -16,9 +16,13 @@
 
 from typing import NamedTuple, Optional, Union
 
-from ..effects.wind import LogProfile
+from ..effects.wind import LogProfile, Profile
 from ..geometry.cup import CUP_MATERIAL
+from ..geometry.polygon import Outline
 from ..geometry.solid import FLAGSTICK_MATERIAL
+from ..geometry.water_surface import Water
+from ..geometry.zone import Zone
+from ..kernel_types import ShapeRecord
 from ..properties.air import Air
 from ..properties.material import Material
 
@@ -72,21 +76,21 @@ class Course(NamedTuple):
         What was put right in it when it was read: a line each.
     """
 
-    ground: tuple
-    tee: tuple = (0.0, 0.0)
-    hole: Optional[tuple] = None
+    ground: tuple[ShapeRecord, ...]
+    tee: tuple[float, float] = (0.0, 0.0)
+    hole: Optional[tuple[float, float]] = None
     flagstick: bool = True
     cup: Material = CUP_MATERIAL
     stick: Material = FLAGSTICK_MATERIAL
-    bounds: Optional[tuple] = None
-    zones: tuple = ()
-    obstacles: tuple = ()
-    water: tuple = ()
+    bounds: Optional[Outline] = None
+    zones: tuple[Union[Zone, tuple[Material, Outline]], ...] = ()
+    obstacles: tuple[ShapeRecord, ...] = ()
+    water: tuple[Water, ...] = ()
     air: Air = Air()
-    wind_profile: NamedTuple = LogProfile()
-    effects: Union[str, tuple] = 'auto'
+    wind_profile: Profile = LogProfile()
+    effects: Union[str, tuple[str, ...]] = 'auto'
     ball: Ball = Ball()
     name: str = ''
     path: str = ''
     digest: str = ''
-    notes: tuple = ()
+    notes: tuple[str, ...] = ()

@@ -15,10 +15,11 @@
 """Accuracy presets of a simulation: sketch, standard, reference."""
 
 from math import inf
-from typing import NamedTuple
+from typing import NamedTuple, Union
 
 from .kernel_model import Limits
 from ..integrators.dormand_prince import DormandPrince
+from ..kernel_types import MethodRecord
 
 
 class Preset(NamedTuple):
@@ -28,7 +29,7 @@ class Preset(NamedTuple):
     level ground, for shots of up to 90 m/s in still air. ``use``: what it is for, in a few words.
     """
 
-    method: NamedTuple
+    method: MethodRecord
     limits: Limits
     touch: float = inf
     rest: float = inf
@@ -56,7 +57,7 @@ ACCURACY = {
 }
 
 
-def preset(accuracy):
+def preset(accuracy: Union[str, Preset]) -> Preset:
     """`Preset` of that name, or the `Preset` itself.
 
     Raises

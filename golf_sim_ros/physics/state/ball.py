@@ -24,6 +24,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
+from ..kernel_types import Vector
 
 
 class Phase(IntEnum):
@@ -46,8 +47,8 @@ REST, FLIGHT, SLIDE, ROLL, HOLED, WATER, OUT, FAILED = (int(phase) for phase in 
 class Shot(NamedTuple):
     """A strike: launch velocity [m/s] and spin [rad/s] in the course frame."""
 
-    velocity: tuple
-    spin: tuple = (0.0, 0.0, 0.0)
+    velocity: Vector
+    spin: Vector = (0.0, 0.0, 0.0)
 
 
 # Events that end a segment. LAUNCH: the ball was put or struck, and its own state counts, not the
@@ -86,8 +87,8 @@ BALL = np.dtype(
         ('micro_bounce_end', 'f8'),
         ('micro_bounce_load', 'f8'),
         ('micro_bounce_air', 'f8', 3),
-        # time stepping (JOINED, STEPPED or 0), for how many steps it has been still, what holds it (1
-        # for a contact with the ground, 2 for one with a ball, summed), the speed that rolling
+        # time stepping (JOINED, STEPPED or 0), for how many steps it has been still, what holds it
+        # (1 for a contact with the ground, 2 for one with a ball, summed), the speed that rolling
         # resistance takes [m/s]; the contact margin [m], and whether other balls move within it;
         # whether it rests, asleep, on a ball
         ('time_stepping', 'i8'),
@@ -104,8 +105,9 @@ BALL = np.dtype(
         ('stored_impulses', 'f8', (MOST_STORED, 4)),
         # number of the water that it is in, from 1; 0: none
         ('water', 'i8'),
-        # the segment: from `begin` to `end`, of a curve over `span` seconds; Bernstein coefficients of
-        # the displacement from `origin` and of the spin; the event that ends it, and with what
+        # the segment: from `begin` to `end`, of a curve over `span` seconds; Bernstein
+        # coefficients of the displacement from `origin` and of the spin; the event that ends it,
+        # and with what
         ('begin', 'f8'),
         ('end', 'f8'),
         ('span', 'f8'),
@@ -114,15 +116,16 @@ BALL = np.dtype(
         ('spin_coefficients', 'f8', (4, 3)),
         ('ending', 'i8'),
         ('target', 'i8'),
-        # the integrator's next step, 0 for a first one, and its stages: rates of position, velocity,
-        # spin; the time of the last stage, which the next step starts from, or -1 where it can't
+        # the integrator's next step, 0 for a first one, and its stages: rates of position,
+        # velocity, spin; the time of the last stage, which the next step starts from, or -1 where
+        # it can't
         ('step', 'f8'),
         ('stages', 'f8', (8, 9)),
         ('last_stage_time', 'f8'),
         ('evaluations', 'i8'),
-        # the shot: whether one is under way; whether another ball has set this one off; the number of
-        # the shot; time and place of the strike; launch velocity and spin; greatest height; the first
-        # contact; bounces
+        # the shot: whether one is under way; whether another ball has set this one off; the number
+        # of the shot; time and place of the strike; launch velocity and spin; greatest height; the
+        # first contact; bounces
         ('shot_active', 'i8'),
         ('moved_by_ball', 'i8'),
         ('shot', 'i8'),
@@ -140,8 +143,8 @@ BALL = np.dtype(
         ('zero_length_segments', 'i8'),
         ('ended', 'f8'),
         ('over_time', 'i8'),
-        # why its shot failed; until when its work is counted, and the work beyond the sustained rate,
-        # in segments
+        # why its shot failed; until when its work is counted, and the work beyond the sustained
+        # rate, in segments
         ('failed', 'i8'),
         ('counted_until', 'f8'),
         ('segments_spent', 'f8'),
@@ -179,6 +182,6 @@ ENDED = np.dtype(
 
 
 @kernel
-def moves(phase):
+def moves(phase: int) -> bool:
     """Whether a ball in `phase` moves."""
     return phase == FLIGHT or phase == SLIDE or phase == ROLL

@@ -19,6 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..jit import kernel
+from ..kernel_types import StructRecord
 
 # Kinds of event.
 BOUNCE, SHOT_ENDS, BALL_HIT, LOST, WATER_HIT, WENT_OUT = range(6)
@@ -51,16 +52,16 @@ class Log(NamedTuple):
     """
 
     events: np.ndarray
-    count: np.ndarray
+    count: np.ndarray  # type: ignore[assignment]  # hides tuple.count
 
 
-def new_log(capacity=64):
+def new_log(capacity: int = 64) -> Log:
     """Empty `Log` for up to `capacity` events."""
     return Log(np.zeros(capacity, EVENT), np.zeros(2, np.int64))
 
 
 @kernel
-def next_event(log):
+def next_event(log: Log) -> StructRecord:
     """Next event of the log, to be written; the last one again where the log is full.
 
     Writes log.

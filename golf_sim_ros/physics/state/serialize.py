@@ -15,15 +15,18 @@
 """Serialisation of `BALL` records and events as numbers and lists, and back."""
 
 from functools import cache
+from typing import Any, Mapping
 
 import numpy as np
 
 from .ball import BALL, FLIGHT, ROLL, SLIDE
+from ..kernel_types import BallRecord
 
 TRIPLE = np.dtype([(axis, 'f8') for axis in 'xyz'])
 
-# fields that a tick writes of a moving ball; all others last as long as its segment
-OF_TICK = BALL.names[:3]
+NAMES = BALL.names or ()
+# The fields that a tick writes of a moving ball; all others last as long as its segment.
+OF_TICK, OF_SEGMENT = NAMES[:3], NAMES[3:]
 # The other fields that matter of a ball at rest: the rest is written when it sets off.
 STANDING = (
     'phase',
@@ -39,39 +42,39 @@ STANDING = (
 STORED = ('stored_count', 'stored_partners', 'stored_impulses')  # only of a time-stepped ball
 
 
-def plain(ball):
+def plain(ball: BallRecord) -> dict[str, Any]:
     """All fields of a `BALL` record that matter, as numbers and lists by name."""
     return {**plain_of_tick(ball), **plain_of_segment(ball)}
 
 
-def plain_of_tick(ball):
+def plain_of_tick(ball: BallRecord) -> dict[str, Any]:
     """Part of `plain` that every tick changes."""
     return {name: ball[name].tolist() for name in OF_TICK}
 
 
-def plain_of_segment(ball):
+def plain_of_segment(ball: BallRecord) -> dict[str, Any]:
     """Part of `plain` that lasts as long as the ball's segment."""
-    names = BALL.names[len(OF_TICK) :] if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
-    if not ball['time_stepping']:
-        names = [name for name in names if name not in STORED]
-    return {name: ball[name].tolist() for name in names}
+    names = OF_SEGMENT if ball['phase'] in (FLIGHT, SLIDE, ROLL) else STANDING
+    return {
+        name: ball[name].tolist() for name in names if ball['time_stepping'] or name not in STORED
+    }
 
 
-def plain_rows(records):
+def plain_rows(records: np.ndarray) -> list[Any]:
     """Rows of an array of records as tuples of numbers and texts, vectors as tuples of three."""
     return records.view(with_triples(records.dtype)).tolist()
 
 
 @cache
-def with_triples(record):
+def with_triples(record: np.dtype) -> np.dtype:
     """Dtype `record` with its vectors as records, which become tuples."""
     return np.dtype(
-        [(name, TRIPLE if kind.shape else kind) for name, (kind, _) in record.fields.items()],
+        [(name, TRIPLE if record[name].shape else record[name]) for name in record.names or ()],
         align=record.isalignedstruct,
     )
 
 
-def restored(values):
+def restored(values: Mapping[str, Any]) -> BallRecord:
     """`BALL` record restored from `plain` values.
 
     ValueError where a name or shape is not of one.

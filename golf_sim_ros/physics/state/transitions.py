@@ -22,56 +22,57 @@ decided there.
 
 from .ball import FAILED, FLIGHT, HOLED, OUT, REST, ROLL, SLIDE, WATER
 from ..jit import kernel
+from ..kernel_types import BallRecord
 from ..mechanics.vector import load, store, ZERO
 
 
 @kernel
-def take_off(ball):
+def take_off(ball: BallRecord) -> None:
     """Let the ball fly: the integrator starts anew with a first step. Writes phase, step."""
     ball['phase'] = FLIGHT
     ball['step'] = 0.0
 
 
 @kernel
-def begin_sliding(ball):
+def begin_sliding(ball: BallRecord) -> None:
     """Let the ball slide on its support. Writes phase."""
     ball['phase'] = SLIDE
 
 
 @kernel
-def begin_rolling(ball):
+def begin_rolling(ball: BallRecord) -> None:
     """Let the ball roll on its support. Writes phase."""
     ball['phase'] = ROLL
 
 
 @kernel
-def come_to_rest(ball):
+def come_to_rest(ball: BallRecord) -> None:
     """Stop the ball where it is. Writes phase, velocity, spin."""
     ball['phase'] = REST
     stand_still(ball)
 
 
 @kernel
-def hole_out(ball):
+def hole_out(ball: BallRecord) -> None:
     """Hole the ball, which rests in the hole. Writes phase."""
     ball['phase'] = HOLED
 
 
 @kernel
-def sink(ball):
+def sink(ball: BallRecord) -> None:
     """End the ball's path in the water. Writes phase, velocity, spin."""
     ball['phase'] = WATER
     stand_still(ball)
 
 
 @kernel
-def leave_bounds(ball):
+def leave_bounds(ball: BallRecord) -> None:
     """Lose the ball out of bounds, or below all ground. Writes phase."""
     ball['phase'] = OUT
 
 
 @kernel
-def put_back(ball):
+def put_back(ball: BallRecord) -> None:
     """Put a ball whose shot fails back to where it was struck. Writes phase, motion."""
     ball['phase'] = FAILED
     store(ball['position'], load(ball['struck_at']))
@@ -79,7 +80,7 @@ def put_back(ball):
 
 
 @kernel
-def stand_still(ball):
+def stand_still(ball: BallRecord) -> None:
     """Take all motion from the ball. Writes velocity, spin."""
     store(ball['velocity'], ZERO)
     store(ball['spin'], ZERO)

@@ -14,9 +14,10 @@
 
 """Equations of motion: of a ball in flight, and of one in contact with ground."""
 
-from ..effects import flight_rates, gravity_at, sinking
+from ..effects import flight_rates, gravity_at, moving_air, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
+from ..kernel_types import BallRecord, Land, MaterialRecord, ModelRecord, Vector
 from ..mechanics.impulse import slip
 from ..mechanics.vector import (
     add,
@@ -38,7 +39,9 @@ STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is o
 
 
 @kernel
-def rates(model, ball, position, velocity, spin):
+def rates(
+    model: ModelRecord, ball: BallRecord, position: Vector, velocity: Vector, spin: Vector
+) -> tuple[Vector, Vector]:
     """Acceleration and angular acceleration of a ball, in flight, under water or in contact."""
     if ball['water'] > 0:
         return sinking(model.effects, position, velocity), ZERO
@@ -49,13 +52,13 @@ def rates(model, ball, position, velocity, spin):
 
 
 @kernel
-def material_under(land, ball):
+def material_under(land: Land, ball: BallRecord) -> MaterialRecord:
     """Row of the material that the ball is in contact with."""
     return land.materials[ball['material']]
 
 
 @kernel
-def rolling_deceleration(material, press, needed):
+def rolling_deceleration(material: MaterialRecord, press: float, needed: float) -> float:
     """Deceleration [m/s^2] of a rolling ball: rolling resistance, as far as grip allows.
 
     Friction has to brake the ball, and to turn it as it speeds up downhill, for which it is
@@ -69,27 +72,34 @@ def rolling_deceleration(material, press, needed):
 
 
 @kernel
-def growth_rate(material, press):
+def growth_rate(material: MaterialRecord, press: float) -> float:
     """Growth of a rolling ball's deceleration with the square of its speed [1/m]."""
     growth = material['rolling_resistance'] * material['resistance_growth'] * press
     return min(growth, STIFFEST_GROWTH)
 
 
 @kernel
-def rolling_needs(downhill, inertia):
+def rolling_needs(downhill: Vector, inertia: float) -> float:
     """Friction over mass [m/s^2] that turns a ball as it rolls down a plane without slip."""
     return inertia / (1.0 + inertia) * length(downhill)
 
 
 @kernel
-def unwinding(material, press, radius, inertia):
+def unwinding(material: MaterialRecord, press: float, radius: float, inertia: float) -> float:
     """Angular deceleration [rad/s^2] of spin about the normal by pivot friction."""
     return material['pivot_friction'] * press / (inertia * radius * radius)
 
 
 @kernel
-def pivoting(ball, material, press, drive, radius, inertia):
-    """Angular deceleration [rad/s^2] by pivot friction, with the sign of the spin about the normal.
+def pivoting(
+    ball: BallRecord,
+    material: MaterialRecord,
+    press: float,
+    drive: float,
+    radius: float,
+    inertia: float,
+) -> float:
+    """Angular deceleration [rad/s^2] by pivot friction, signed as the spin about the normal.
 
     The sign is that at the step's start: within a step it must not jump. A ball without such spin
     is held against the `drive` of a normal that turns, as by static friction.
@@ -102,14 +112,24 @@ def pivoting(ball, material, press, drive, radius, inertia):
 
 
 @kernel
-def micro_bounce_forces(ball, normal, press, downhill):
-    """Mean press, and acceleration along the ground by weight and air, of a ball in micro-bounces."""
+def micro_bounce_forces(
+    ball: BallRecord, normal: Vector, press: float, downhill: Vector
+) -> tuple[float, Vector]:
+    """Mean press, and acceleration along the ground by weight and air, in micro-bounces."""
     along_ground = tangential(load(ball['micro_bounce_air']), normal)
     return ball['micro_bounce_load'] * press, add(downhill, along_ground)
 
 
 @kernel
-def supporting_surface(land, ball, place):
+def pull_at(land: Land, place: Vector, velocity: Vector, spin: Vector) -> Vector:
+    """Acceleration of a ball in contact by its weight and by moving air."""
+    return add(
+        gravity_at(land.effects, place), moving_air(land.air, land.ground, place, velocity, spin)
+    )
+
+
+@kernel
+def supporting_surface(land: Land, ball: BallRecord, place: Vector) -> tuple[float, Vector]:
     """Distance of `place` from the surface that supports the ball, and the normal there.
 
     Flat ground counts as a plane without end: it is left at a border, an event of its own.
@@ -121,18 +141,20 @@ def supporting_surface(land, ball, place):
 
 
 @kernel
-def turn_of_normal(land, ball, place, velocity):
-    """Rate of change of the normal under the ball, as it moves at `velocity`."""
+def turn_of_normal(land: Land, ball: BallRecord, place: Vector, velocity: Vector) -> Vector:
+    """Rate of change of the normal of the supporting surface, as the ball moves at `velocity`."""
     if ball['on_flat'] == 1:
         return ZERO
     return surfaces.turn(land.ground, ball['support'], place, velocity)
 
 
 @shared
-def contact_rates(land, ball, place, velocity, spin):
-    """Acceleration, angular acceleration, press, and friction needed to roll, in contact.
+def contact_rates(
+    land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
+) -> tuple[Vector, Vector, float, float]:
+    """Acceleration, angular acceleration, press, and friction needed to roll.
 
-    A press below 0 means that the ground would have to pull.
+    Of a ball in contact. A press below 0 means that the ground would have to pull.
 
     With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
     mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =
@@ -145,13 +167,15 @@ def contact_rates(land, ball, place, velocity, spin):
     k = land.ball.inertia
     _, normal = supporting_surface(land, ball, place)
     turn = turn_of_normal(land, ball, place, velocity)
-    press, downhill = surfaces.slope(gravity_at(land.effects, place), normal)
+    # Micro-bounces have the force of all air already.
+    tail = ball['micro_bounce_end'] > ball['begin']
+    pull = gravity_at(land.effects, place) if tail else pull_at(land, place, velocity, spin)
+    press, downhill = surfaces.slope(pull, normal)
     material = material_under(land, ball)
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
     # Single impacts do not brake a rolling ball, so neither do micro-bounces.
-    tail = ball['micro_bounce_end'] > ball['begin']
     load = press
     if tail:
         load, downhill = micro_bounce_forces(ball, normal, press, downhill)

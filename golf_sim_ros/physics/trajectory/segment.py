@@ -29,11 +29,18 @@ within their convex hull, which gives bounds for nothing, and short segments kee
 from math import sqrt
 
 from ..jit import kernel
+from ..kernel_types import BallRecord, Heights, Vector
 from ..mechanics.vector import add, add_scaled, dot, load, store, sub
 
 
 @kernel
-def fit_segment(ball, way, velocity, rate, spin_rate):
+def fit_segment(
+    ball: BallRecord,
+    way: Vector,
+    velocity: tuple[Vector, Vector],
+    rate: tuple[Vector, Vector],
+    spin_rate: tuple[Vector, Vector],
+) -> None:
     """Fit the segment's Hermite curves. Writes position_coefficients, spin_coefficients.
 
     `way` is the displacement over ``ball['span']``; `velocity`, `rate` (acceleration) and
@@ -57,7 +64,7 @@ def fit_segment(ball, way, velocity, rate, spin_rate):
 
 
 @kernel
-def position(ball, time):
+def position(ball: BallRecord, time: float) -> Vector:
     """Position `time` after the start of the segment."""
     t = time / ball['span']
     s = 1.0 - t
@@ -76,7 +83,7 @@ def position(ball, time):
 
 
 @kernel
-def velocity(ball, time):
+def velocity(ball: BallRecord, time: float) -> Vector:
     """Velocity `time` after the start of the segment."""
     t = time / ball['span']
     s = 1.0 - t
@@ -107,7 +114,7 @@ def velocity(ball, time):
 
 
 @kernel
-def spin(ball, time):
+def spin(ball: BallRecord, time: float) -> Vector:
     """Spin `time` after the start of the segment."""
     t = time / ball['span']
     s = 1.0 - t
@@ -124,7 +131,7 @@ def spin(ball, time):
 
 
 @kernel
-def acceleration_coefficient(ball, i):
+def acceleration_coefficient(ball: BallRecord, i: int) -> Vector:
     """Bernstein coefficient `i` (0 to 3) of the segment's acceleration."""
     w = ball['position_coefficients']
     k = 20.0 / (ball['span'] * ball['span'])
@@ -133,7 +140,7 @@ def acceleration_coefficient(ball, i):
 
 
 @kernel
-def greatest_acceleration(ball):
+def greatest_acceleration(ball: BallRecord) -> float:
     """Upper bound on the magnitude of the acceleration over the segment."""
     most = 0.0
     for i in range(4):
@@ -143,7 +150,7 @@ def greatest_acceleration(ball):
 
 
 @kernel
-def greatest_speed(ball):
+def greatest_speed(ball: BallRecord) -> float:
     """Upper bound on the speed over the segment."""
     w = ball['position_coefficients']
     most = 0.0
@@ -154,7 +161,7 @@ def greatest_speed(ball):
 
 
 @kernel
-def least_acceleration(ball, direction):
+def least_acceleration(ball: BallRecord, direction: Vector) -> float:
     """Lower bound on the acceleration along `direction` over the segment."""
     least = dot(acceleration_coefficient(ball, 0), direction)
     for i in range(1, 4):
@@ -163,7 +170,7 @@ def least_acceleration(ball, direction):
 
 
 @kernel
-def extent_along(ball, axis):
+def extent_along(ball: BallRecord, axis: int) -> tuple[float, float]:
     """Bounds on the segment's coordinate along `axis`, least and greatest."""
     low = 0.0
     high = 0.0
@@ -175,8 +182,11 @@ def extent_along(ball, axis):
 
 
 @kernel
-def plane_gap_coefficients(ball, normal, first):
-    """Bernstein coefficients of the segment's height over a plane of `normal`, `first` at its start."""
+def plane_gap_coefficients(ball: BallRecord, normal: Vector, first: float) -> Heights:
+    """Bernstein coefficients of the segment's height over a plane of `normal`.
+
+    It is `first` at its start.
+    """
     w = ball['position_coefficients']
     return (
         first,
@@ -189,8 +199,11 @@ def plane_gap_coefficients(ball, normal, first):
 
 
 @kernel
-def plane_gap(g, span, time):
-    """Height of Bernstein coefficients `g` at `time` after the start of a segment of `span`, and its rate."""
+def plane_gap(g: Heights, span: float, time: float) -> tuple[float, float]:
+    """Height of Bernstein coefficients `g`, and its rate, on a segment of `span`.
+
+    At `time` after its start.
+    """
     t = time / span
     s = 1.0 - t
     ss = s * s
@@ -211,8 +224,11 @@ def plane_gap(g, span, time):
 
 
 @kernel
-def acceleration_bounds(g, span):
-    """Bounds on how fast the rate of a height with coefficients `g` falls, and rises, over a segment."""
+def acceleration_bounds(g: Heights, span: float) -> tuple[float, float]:
+    """Bounds on how fast the rate of a height with coefficients `g` falls, and rises.
+
+    Over a segment of `span`.
+    """
     a = g[2] - 2.0 * g[1] + g[0]
     b = g[3] - 2.0 * g[2] + g[1]
     c = g[4] - 2.0 * g[3] + g[2]
@@ -222,7 +238,7 @@ def acceleration_bounds(g, span):
 
 
 @kernel
-def stay_in_place(ball):
+def stay_in_place(ball: BallRecord) -> None:
     """Plan a segment at rest, with the ball's spin. Writes curve."""
     ball['span'] = 1.0
     store(ball['origin'], load(ball['position']))
@@ -232,6 +248,6 @@ def stay_in_place(ball):
 
 
 @kernel
-def control_point(ball, i):
+def control_point(ball: BallRecord, i: int) -> Vector:
     """Control point `i` of the segment, in the course frame."""
     return add(load(ball['origin']), load(ball['position_coefficients'][i]))

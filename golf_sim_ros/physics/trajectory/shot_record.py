@@ -16,9 +16,10 @@
 
 from . import segment
 from ..jit import entry, kernel
+from ..kernel_types import BallRecord, StructRecord
 from ..mechanics.vector import load, store
 from ..state.ball import FLIGHT, LAUNCH, moves, REST
-from ..state.events import LOST, next_event, SHOT_ENDS
+from ..state.events import Log, LOST, next_event, SHOT_ENDS
 from ..state.transitions import come_to_rest, put_back
 
 NOT_FINITE, TOO_MUCH_WORK = 1, 2  # why a shot fails
@@ -32,14 +33,14 @@ APEX_SPEED = 1e-7  # m/s: a ball that rises no faster is at its apex but for a f
 
 
 @kernel
-def update_apex(ball):
+def update_apex(ball: BallRecord) -> None:
     """Update the greatest height in flight before the first contact with the segment.
 
     Writes apex.
     """
     if ball['phase'] != FLIGHT or ball['landed']:
         return
-    # no root finding where the control points are lower
+    # No root finding where the control points are lower.
     if segment.extent_along(ball, 2)[1] <= ball['apex']:
         return
     time = ball['end'] - ball['begin']
@@ -52,7 +53,7 @@ def update_apex(ball):
     if rising <= 0.0 or falling >= 0.0:
         return
     moved = 0
-    # regula falsi; an end that stays twice loses half of its weight (Illinois)
+    # Regula falsi; an end that stays twice loses half of its weight (Illinois)
     for _ in range(50):
         apex = (low * falling - high * rising) / (falling - rising)
         speed = segment.velocity(ball, apex)[2]
@@ -72,7 +73,7 @@ def update_apex(ball):
 
 
 @kernel
-def mark_moved_by_ball(ball):
+def mark_moved_by_ball(ball: BallRecord) -> None:
     """Mark a ball at rest that another one sets off. Writes moved_by_ball, struck_at.
 
     If it is lost, it goes back to where it lay.
@@ -83,7 +84,7 @@ def mark_moved_by_ball(ball):
 
 
 @kernel
-def record_landing(ball, now):
+def record_landing(ball: BallRecord, now: float) -> None:
     """Record time, position and velocity of a shot's first contact. Writes landing."""
     if ball['shot_active'] and not ball['landed'] and ball['phase'] == FLIGHT:
         ball['landed'] = 1
@@ -93,7 +94,7 @@ def record_landing(ball, now):
 
 
 @kernel
-def end_shot(ball, number, now, kind, log):
+def end_shot(ball: BallRecord, number: int, now: float, kind: int, log: Log) -> None:
     """End the ball's shot and log it as `kind`, SHOT_ENDS or LOST.
 
     A ball that still moves is over time, and is stopped. Writes shot_active, ended, over_time,
@@ -112,7 +113,7 @@ def end_shot(ball, number, now, kind, log):
 
 
 @kernel
-def check_segment(ball, now):
+def check_segment(ball: BallRecord, now: float) -> int:
     """Reason for which the ball can't go on with its segment planned at `now`, or 0.
 
     Writes counted_until, segments_spent.
@@ -127,12 +128,12 @@ def check_segment(ball, now):
     total = ball['end'] - ball['begin'] + ball['span']
     for k in range(3):
         total += w[1, k] + w[2, k] + w[3, k] + w[4, k] + w[5, k] + s[1, k] + s[2, k] + s[3, k]
-    # infinite or not a number: the difference is no zero
+    # Infinite or not a number: the difference is no zero.
     return 0 if total - total == 0.0 else NOT_FINITE
 
 
 @kernel
-def is_finite(ball):
+def is_finite(ball: BallRecord) -> bool:
     """Whether the ball's position, velocity and spin are finite."""
     x = ball['position']
     v = ball['velocity']
@@ -142,7 +143,7 @@ def is_finite(ball):
 
 
 @kernel
-def fail(ball, number, now, why, log):
+def fail(ball: BallRecord, number: int, now: float, why: int, log: Log) -> None:
     """Fail the shot of a ball that can't go on; it is put back to where it was struck.
 
     Logs the end. Writes motion, phase, shot.
@@ -154,7 +155,7 @@ def fail(ball, number, now, why, log):
 
 
 @kernel
-def copy_result(ball, end):
+def copy_result(ball: BallRecord, end: StructRecord) -> None:
     """Copy what a result needs of a ball's shot into `end`, an `ENDED` record."""
     end['phase'] = ball['phase']
     end['support'] = ball['support']
@@ -175,7 +176,7 @@ def copy_result(ball, end):
 
 
 @entry
-def begin_shot(ball, now):
+def begin_shot(ball: BallRecord, now: float) -> None:
     """Begin a shot with the ball's velocity and spin at `now`. Writes shot, end, ending."""
     ball['shot_active'] = 1
     ball['moved_by_ball'] = 0

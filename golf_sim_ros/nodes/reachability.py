@@ -12,11 +12,16 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Whether a sim can be reached, by its heartbeat: a dead one has matched subscriptions for a while."""
+"""Whether a sim can be reached, by its heartbeat.
+
+A dead one has matched subscriptions for a while.
+"""
 
 import json
 import time
+from typing import Any
 
+from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
@@ -34,39 +39,50 @@ class Reach:
     node : rclpy.node.Node
     """
 
-    def __init__(self, node):
+    def __init__(self, node: Node) -> None:
         self._node = node
-        self.last, self.heard_at = None, None
-        self.reached_since = None  # when the silence before ended
+        self.last: dict[str, Any] | None = None
+        self.heard_at: float | None = None
+        self.reached_since = 0.0  # when the silence before ended
         self._beats = node.create_subscription(String, 'heartbeat', self._hear, BEAT_QOS)
 
-    def _hear(self, message):
+    def _hear(self, message: String) -> None:
         now = time.monotonic()
         beat = json.loads(message.data)
-        if self.silence(now) > SILENT or beat['session'] != self.last['session']:
+        if self.silence(now) > SILENT or beat['session'] != self.beat['session']:
             self.reached_since = now
-        self.last, self.heard_at = beat, now
+        self.last = beat
+        self.heard_at = now
 
-    def silence(self, now=None):
-        """How long there was no heartbeat [s]."""
+    @property
+    def beat(self) -> dict[str, Any]:
+        """The last heartbeat, of a sim that had one."""
+        assert self.last is not None, 'no heartbeat was heard'
+        return self.last
+
+    def silence(self, now: float | None = None) -> float:
+        """Tell how long there was no heartbeat [s]."""
         now = time.monotonic() if now is None else now
         return float('inf') if self.heard_at is None else now - self.heard_at
 
-    def is_offered(self):
+    def is_offered(self) -> bool:
         """Whether there is, or was until just now, a sim that publishes a heartbeat."""
         return self.heard_at is not None or self._node.count_publishers(self._beats.topic_name) > 0
 
-    def is_fresh(self):
+    def is_fresh(self) -> bool:
         """Whether the last heartbeat is recent enough to strike."""
         return self.silence() < FRESH
 
-    def is_lost(self):
+    def is_lost(self) -> bool:
         """Whether the sim cannot be reached."""
         return self.silence() > SILENT
 
-    def has_had_time(self, since):
-        """Whether the sim could be reached, and was not paused, for long enough since a strike was sent."""
+    def has_had_time(self, since: float) -> bool:
+        """Whether the sim had time enough to take a strike that was sent at `since`.
+
+        That is, whether it could be reached, and was not paused, for so long.
+        """
         now = time.monotonic()
-        if self.last['paused']:
+        if self.beat['paused']:
             self.reached_since = now
         return not self.is_lost() and now - max(since, self.reached_since) > SOON

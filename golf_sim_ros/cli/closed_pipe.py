@@ -12,24 +12,28 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Programs in pipes: where their output is not read on, as in ``resimulate BAG | head -1``, they end."""
+"""Programs in pipes whose output is not read on, as in ``resimulate BAG | head -1``: they end."""
 
+from collections.abc import Callable, Sequence
 from functools import wraps
 import os
 import sys
 
+Main = Callable[..., int]  # of a program: takes its arguments, gives its exit code
+
 UNREAD = 141  # exit code of a program that ends so: 128 and the number of SIGPIPE, as in a shell
 
 
-def in_pipes(main):
-    """`main` of a program, which returns an exit code, made to end quietly once its output is not read."""
+def in_pipes(main: Main) -> Main:
+    """Make `main`, which returns an exit code, end quietly once its output is not read."""
 
     @wraps(main)
-    def run(args=None):
+    def run(args: Sequence[str] | None = None) -> int:
         try:
             try:
                 return main(args)
-            finally:  # of --help, too, which ends with an exception; what is left would be written too late
+            finally:
+                # Of --help, too, which ends with an exception; what is left would come too late.
                 for stream in (sys.stdout, sys.stderr):
                     if stream is not None:
                         stream.flush()
@@ -40,7 +44,7 @@ def in_pipes(main):
     return run
 
 
-def say(text):
+def say(text: str) -> None:
     """Print a line at once, if standard output is read."""
     try:
         print(text, flush=True)
@@ -48,8 +52,11 @@ def say(text):
         print_nowhere()
 
 
-def print_nowhere():
-    """Drop what is still to be printed: Python would complain, at its end, that it could not be."""
+def print_nowhere() -> None:
+    """Drop what is still to be printed.
+
+    Python would complain, at its end, that it could not be.
+    """
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (sys.stdout, sys.stderr):
         try:

@@ -18,14 +18,20 @@ import os
 import subprocess
 import sys
 
+from golf_sim_ros.cli.closed_pipe import UNREAD
 import pytest
+from recorded_play import bag, Sim
 
-pytest.importorskip('rosbags')
-
-from golf_sim_ros.cli.pipes import UNREAD  # noqa: E402
-from recorded_play import bag, Sim  # noqa: E402
-
-TOOLS = ('resimulate', 'plot_play', 'shoot', 'record_play', 'accuracy_study')
+TOOLS = (
+    'resimulate',
+    'plot_play',
+    'shoot',
+    'record_play',
+    'accuracy_study',
+    'compare_shots',
+    'view_play',
+    'play_hole',
+)
 PLAIN = {**os.environ, 'NUMBA_DISABLE_JIT': '1', 'MPLBACKEND': 'agg'}
 
 

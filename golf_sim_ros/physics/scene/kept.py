@@ -1,0 +1,69 @@
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""What was built for a record is kept, and found again for any record that holds the same.
+
+Records hold arrays, which can be neither hashed nor trusted to stay as they are. So what is kept
+is found by the values themselves, arrays by a digest of their bytes: an array that was written to
+is another one, and a course that another process sent is the same one.
+"""
+
+from collections import OrderedDict
+from functools import wraps
+from hashlib import blake2b
+from threading import Lock
+from typing import Any, Callable, Hashable
+
+import numpy as np
+
+MOST_KEPT = 8  # results of each function, the last ones used
+
+
+def kept(build: Callable) -> Callable:
+    """Build what a function of one record returns once for records of equal values.
+
+    The result is shared, also between threads, so nobody may write into it.
+    """
+    found: OrderedDict = OrderedDict()
+    lock = Lock()
+
+    @wraps(build)
+    def look_up(record: tuple) -> Any:
+        key = fingerprint(record)
+        with lock:
+            if key in found:
+                found.move_to_end(key)
+                return found[key]
+        result = build(record)
+        with lock:
+            found[key] = result
+            while len(found) > MOST_KEPT:
+                found.popitem(last=False)
+        return result
+
+    return look_up
+
+
+def fingerprint(value: Any) -> Hashable:
+    """Return a hashable value that is equal for records, tuples and arrays of equal content."""
+    if isinstance(value, np.ndarray):
+        whole = np.ascontiguousarray(value)
+        return value.dtype.str, value.shape, blake2b(whole.view(np.uint8).data).digest()
+    if isinstance(value, dict):
+        return dict, fingerprint(tuple(value.items()))
+    try:
+        hash(value)
+    except TypeError:
+        return type(value), tuple(map(fingerprint, value))
+    return type(value), value

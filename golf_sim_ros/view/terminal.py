@@ -1,0 +1,214 @@
+# Copyright 2026 golf_sim_ros maintainers
+#
+# Licensed under the Apache License, Version 2.0 (the "License");
+# you may not use this file except in compliance with the License.
+# You may obtain a copy of the License at
+#
+#     http://www.apache.org/licenses/LICENSE-2.0
+#
+# Unless required by applicable law or agreed to in writing, software
+# distributed under the License is distributed on an "AS IS" BASIS,
+# WITHOUT WARRANTIES OR CONDITIONS OF ANY KIND, either express or implied.
+# See the License for the specific language governing permissions and
+# limitations under the License.
+
+"""Holes in the terminal: what is asked, what is typed, the card."""
+
+import asyncio
+from math import hypot
+import signal
+import sys
+from typing import Any
+
+from . import caddie
+from .caddie import launch, Stroke
+from .demo import play_hole, until
+from .game import Hole
+from .session import Session
+from .worker import Worker
+from ..shot_input.clubs import club, CLUBS, PUTTER
+from ..shot_input.units import UNITS
+
+HELP = """\
+CLUB [POWER] [AIM] [CURVE]   strike: 7i, 7i 80, 7i 80 -2, driver 100 0 20
+  POWER  percent of the club's average; of the putter the ball's speed in m/s
+  AIM    degrees from the hole, to the right
+  CURVE  from -100, a hook, to 100, a slice
+?                            what the caddie would play
+q                            end
+"""
+
+
+def play(game: Any, options: Any) -> int:
+    """Play in the terminal; return the exit code."""
+    try:
+        return asyncio.run(rounds(game, options))
+    except (KeyboardInterrupt, asyncio.CancelledError):
+        return 0
+    finally:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+        game.closing()
+        game.close()
+
+
+async def rounds(game: Any, options: Any) -> int:
+    """Play all holes, until input ends or a signal comes."""
+    loop, task = asyncio.get_running_loop(), asyncio.current_task()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        if task is not None:
+            loop.add_signal_handler(number, task.cancel)
+    worker = Worker()
+    game.begin()
+    try:
+        while True:
+            session = game.session
+            await until(session.can_strike)
+            tee_off(session, options.units)
+            if options.demo:
+                await demonstrated(session, worker, game, options.units)
+            elif not await typed(session, worker, game, options.units):
+                return 0
+            print(card(session.round.hole), flush=True)
+            if game.is_last:
+                return 0
+            await game.go_on()
+            session.course = None
+    finally:
+        await worker.ended()
+
+
+def tee_off(session: Session, units: str) -> None:
+    """Print the hole that begins."""
+    hole, length = session.round.hole, UNITS[units].length
+    way = way_to_hole(session) / length.size
+    print(f'\n{hole.name}: par {hole.par}, {way:.0f} {length.name}', flush=True)
+
+
+async def demonstrated(session: Session, worker: Worker, game: Any, units: str) -> None:
+    """Let the caddie play, and print each stroke."""
+    told = [0]
+
+    def tell() -> None:
+        lines = session.round.hole.lines
+        first, told[0] = told[0], len(lines)
+        for line in lines[first:]:
+            print(described(line, units), flush=True)
+
+    forget = session.listen(tell)
+    try:
+        await play_hole(session, worker, game.link.strike, 0.0)
+    finally:
+        forget()
+
+
+async def typed(session: Session, worker: Worker, game: Any, units: str) -> bool:
+    """Strike as typed until the ball is in the hole; False where input ended."""
+    print(HELP, end='')
+    while not session.is_over:
+        print(situation(session, units), end='', flush=True)
+        line = await next_line()
+        if line is None or line.strip() in ('q', 'quit', 'exit'):
+            return False
+        stroke = await understood(line, session, worker)
+        if stroke is None:
+            continue
+        lie = session.lie
+        if lie is None:
+            continue
+        velocity, spin = launch(lie.course.hole, lie.place, stroke)
+        lines = len(session.round.hole.lines)
+        session.sent(stroke.club, velocity, spin)
+        game.link.strike(velocity, spin)
+        await until(lambda: session.can_strike() or session.is_over)
+        for played in session.round.hole.lines[lines:]:
+            print(described(played, units), flush=True)
+    return True
+
+
+async def next_line() -> str | None:
+    """Read a line of standard input; None where it ended."""
+    loop, ready = asyncio.get_running_loop(), asyncio.Event()
+    try:
+        loop.add_reader(sys.stdin, ready.set)
+    except (PermissionError, ValueError):  # a file
+        return sys.stdin.readline() or None
+    try:
+        await ready.wait()
+    finally:
+        loop.remove_reader(sys.stdin)
+    return sys.stdin.readline() or None
+
+
+async def understood(line: str, session: Session, worker: Worker) -> Stroke | None:
+    """Read a typed line as a stroke; None where it is none, after a line that says why."""
+    words = line.split()
+    if words == ['?']:
+        answer = session.lie and await worker.ask('choose', session.lie)
+        print(advice(Stroke(**answer)) if answer else 'no advice')
+        return None
+    if not words:
+        return None
+    try:
+        return stroke_of(words, session)
+    except ValueError as error:
+        print(f'{error}; ? asks the caddie, q ends')
+        return None
+
+
+def stroke_of(words: list, session: Session) -> Stroke:
+    """Read words as a stroke; ValueError where they are none."""
+    name = club(words[0]).name
+    if len(words) > 4:
+        raise ValueError('CLUB, POWER, AIM and CURVE are all there is')
+    numbers = [float(word) for word in words[1:]]
+    power = numbers[0] if numbers else None
+    aim, curve = [*numbers[1:], 0.0, 0.0][:2]
+    if name == PUTTER:
+        way = way_to_hole(session)
+        return Stroke(name, caddie.putt_speed(way + 0.3) if power is None else power, aim)
+    return Stroke(name, (100.0 if power is None else power) / 100, aim, curve / 100)
+
+
+def way_to_hole(session: Session) -> float:
+    """Distance from the ball to the hole [m]."""
+    lie = session.lie
+    if lie is None or lie.course.hole is None:
+        return 0.0
+    return hypot(lie.course.hole[0] - lie.place[0], lie.course.hole[1] - lie.place[1])
+
+
+def advice(stroke: Stroke) -> str:
+    """Write a stroke as it is typed."""
+    power = stroke.power if stroke.club == PUTTER else 100 * stroke.power
+    return f'{stroke.club} {power:.2f} {stroke.aim:.1f}'
+
+
+def situation(session: Session, units: str) -> str:
+    """Describe where the ball lies: stroke, way, wind, a club."""
+    length, lie = UNITS[units].length, session.lie
+    way = way_to_hole(session)
+    wind = hypot(*session.wind[:2])
+    blows = f', wind {wind:.1f} m/s' if wind > 0.1 else ''
+    putts = lie is not None and caddie.is_putt(lie.course, lie.place)
+    likely = PUTTER if putts else caddie.likely_clubs(way)[0]
+    carry = CLUBS[likely].carry
+    reach = f' carries {carry / length.size:.0f}' if carry else ''
+    number = session.round.hole.strokes + 1
+    told = f'stroke {number}, {way / length.size:.1f} {length.name} to the hole{blows}'
+    return f'{told} [{likely}{reach}]: '
+
+
+def described(line: Any, units: str) -> str:
+    """Describe a stroke that was played."""
+    length, result = UNITS[units].length, line.result
+    ends = {'holed': 'in the hole', 'water': 'in the water', 'out_of_bounds': 'out of bounds'}
+    end = ends.get(result['status'], result['lie'].replace('_', ' '))
+    penalty = f', {line.penalty} penalty stroke' if line.penalty else ''
+    way = f'{result["total"] / length.size:.1f} {length.name}'
+    return f'  {line.stroke}. {line.club or "shot"}: {way}, {end}{penalty}'
+
+
+def card(hole: Hole) -> str:
+    """Describe the score of a hole."""
+    return f'{hole.name}: {hole.strokes} strokes, {hole.verdict()} (par {hole.par})'
