@@ -45,6 +45,8 @@ from ..trajectory.equations_of_motion import (
 from ..trajectory.segment import fit_segment, position
 
 MOST_NORMAL_TURN = 0.1  # rad by which the normal may turn in a step
+# of that in micro-bounces, when nothing brakes: an error between a step's ends would show as energy
+UNBRAKED = 0.5
 FIRST_STEP = 0.02  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s: a shorter step's end is not projected in position
@@ -98,6 +100,7 @@ def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     # Never up to a discontinuity, where the method would lose its order.
     h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
     if in_micro_bounces(ball, now):
+        h = min(h, UNBRAKED * MOST_NORMAL_TURN / max(length(turn), 1e-3))
         h = min(h, ball['micro_bounce_end'] - now)
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
     cost = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
