@@ -83,11 +83,16 @@ def material(rng):
         'rolling_resistance': number(rng, 0, 1e6, 0.1, 0.0),
         'pivot_friction': number(rng, 0, 1e6, 0.002, 0.0),
         'softness': number(rng, 0, 100, 1.0, 0.0),
-        'resistance_growth': number(rng, 0, 100, 0.07, 0.0),
-        'ploughing': number(rng, 0, 100, 0.7, 0.0),
     }
     kept = [name for name in fields if rng.random() < 0.6]
-    return {name: fields[name] for name in kept}
+    # A stream of their own: a seed's scene stays what it was, but for these.
+    own = np.random.default_rng(rng.bit_generator.seed_seq.spawn(1)[0])
+    newer = {
+        'resistance_growth': number(own, 0, 100, 0.07, 0.0),
+        'ploughing': number(own, 0, 100, 0.7, 0.0),
+    }
+    kept_newer = [name for name in newer if own.random() < 0.3]
+    return {name: {**fields, **newer}[name] for name in (*kept, *kept_newer)}
 
 
 def ball(rng):
