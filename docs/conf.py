@@ -21,6 +21,7 @@ So nothing here may depend on where this file lies.
 from pathlib import Path
 import re
 import sys
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 try:
@@ -72,6 +73,16 @@ autodoc_mock_imports = [
     'scipy',
     'tqdm',
 ]
+
+
+class Element:
+    """Stand-in for NiceGUI's, whose subclasses take keywords; autodoc's own would refuse them."""
+
+    def __init_subclass__(cls, **_):
+        pass
+
+
+sys.modules['nicegui.element'] = SimpleNamespace(Element=Element, __spec__=None)
 autodoc_member_order = 'bysource'
 napoleon_google_docstring = False
 napoleon_use_rtype = False
