@@ -19,11 +19,12 @@ Frames are named after `frame_id`, so that several sims on one graph need severa
     parent_frame -> frame_id -> frame_id/tee, frame_id/hole, frame_id/BALL
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
+import numpy as np
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import Header
@@ -36,6 +37,8 @@ MISSING = 'publish_tf needs tf2_msgs: install it (apt: ros-DISTRO-tf2-msgs), or 
 STREAM = QoSProfile(depth=100)
 LASTING = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+
+Vector = Sequence[float] | np.ndarray
 
 
 class Transforms:
@@ -59,9 +62,7 @@ class Transforms:
         self.static = node.create_publisher(TFMessage, '/tf_static', LASTING)
         self.static.publish(TFMessage(transforms=of_course(course, parent, frame, head)))
 
-    def balls(
-        self, head: Header, balls: dict[str, Any], turns: dict[str, Sequence[float]]
-    ) -> None:
+    def balls(self, head: Header, balls: dict[str, Any], turns: Mapping[str, Vector]) -> None:
         """Publish where balls are, by name, and how they are turned."""
         self.moving.publish(self.message(transforms=of_balls(self.frame, head, balls, turns)))
 
@@ -81,7 +82,7 @@ def of_course(course: Course, parent: str, frame: str, head: Header) -> list[Tra
 
 
 def of_balls(
-    frame: str, head: Header, balls: dict[str, Any], turns: dict[str, Sequence[float]]
+    frame: str, head: Header, balls: dict[str, Any], turns: Mapping[str, Vector]
 ) -> list[TransformStamped]:
     """Make the transforms of balls, by name."""
     return [
@@ -91,7 +92,7 @@ def of_balls(
 
 
 def transform(
-    head: Header, parent: str, child: str, place: Sequence[float], turn: Sequence[float]
+    head: Header, parent: str, child: str, place: Vector, turn: Vector
 ) -> TransformStamped:
     """Make the transform of a frame at `place`, turned by a quaternion."""
     made = TransformStamped(header=Header(stamp=head.stamp, frame_id=parent))

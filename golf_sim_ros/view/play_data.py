@@ -82,7 +82,8 @@ def ball_rows(shots: list[DrawnShot]) -> np.ndarray:
 
 def is_within(hit: Collision, shot: DrawnShot) -> bool:
     """Whether an impact has a time and place within a shot's path."""
-    return shot.times[0] <= hit.time <= shot.times[-1] and np.isfinite(hit.position).all()
+    in_time = shot.times[0] <= hit.time <= shot.times[-1]
+    return bool(in_time and np.isfinite(hit.position).all())
 
 
 def winds(shots: list[DrawnShot]) -> list:

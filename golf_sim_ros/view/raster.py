@@ -205,4 +205,4 @@ def spline(values: np.ndarray, places: np.ndarray) -> np.ndarray:
     slope = slopes(values)
     row = np.clip(places.astype(int), 0, len(values) - 2)
     t = (places - row)[:, np.newaxis]
-    return hermite(values[row], slope[row], values[row + 1], slope[row + 1], t)[0]
+    return np.asarray(hermite(values[row], slope[row], values[row + 1], slope[row + 1], t)[0])
