@@ -12,8 +12,31 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Wind generators: numpy only, no ROS."""
+"""Wind: gusts, and fields of wind over a course. No ROS; only solving needs numba."""
 
+from collections.abc import Callable, Sequence
+
+from .errors import FieldError, NotConverged
+from .field import WindField
 from .gusts import Gusts, GustSettings
+from ..physics.scene.course_record import Course
 
-__all__ = ['Gusts', 'GustSettings']
+__all__ = ['FieldError', 'GustSettings', 'Gusts', 'NotConverged', 'WindField', 'solve']
+
+
+def solve(
+    course: Course,
+    directions: int | Sequence[float] = 16,
+    accuracy: str = 'standard',
+    progress: Callable[[int, int, float], None] | None = None,
+) -> WindField:
+    """Solve for the wind over a course; see `solving.solve`.
+
+    Raises
+    ------
+    golf_sim_ros.physics.EngineUnavailable
+        There is no numba here.
+    """
+    from .solving import solve as solve_now
+
+    return solve_now(course, directions, accuracy, progress)
