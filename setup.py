@@ -33,6 +33,7 @@ EXECUTABLES = {
     'accuracy_study': 'golf_sim_ros.cli.accuracy_study:main',
     'compare_shots': 'golf_sim_ros.cli.compare_shots:main',
     'compile_physics': 'golf_sim_ros.cli.compile_physics:main',
+    'wind_field': 'golf_sim_ros.cli.wind_field:main',
 }
 
 # ROS 2 as wheels from PyPI, for machines without it: Linux x86-64 only.

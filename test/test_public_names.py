@@ -26,11 +26,12 @@ ROOT = Path(__file__).resolve().parents[1]
 COMMANDS = {
     'sim_node', 'wind_node', 'shoot', 'record_play', 'resimulate', 'plot_play', 'accuracy_study',
     'compare_shots', 'view_play', 'play_hole',
-    'compile_physics',
+    'compile_physics', 'wind_field',
 }
 SIM_PARAMETERS = {
     'course', 'rate', 'publish_rate', 'real_time_factor', 'accuracy', 'effects', 'balls',
     'frame_id', 'publish_tf', 'parent_frame', 'publish_clock', 'engine',
+    'turbulence', 'turbulence_seed',
 }
 WIND_PARAMETERS = {
     'speed', 'speed_spread', 'direction', 'direction_spread', 'interval', 'ramp', 'turbulence',
@@ -39,7 +40,7 @@ WIND_PARAMETERS = {
 NAMES_OF_EFFECTS = {
     'ball_ball', 'bearman_harvey_1976', 'drag', 'ferguson_drag', 'ferguson_lift', 'foliage',
     'gravity', 'linear_drag', 'magnus', 'naruo_2004', 'penner_2002', 'smits_smith_1994',
-    'spin_decay', 'turf', 'water', 'wind',
+    'spin_decay', 'turbulence', 'turf', 'water', 'wind', 'wind_field',
 }
 TOPICS = {
     'shot', 'place', 'wind', 'pose', 'twist', 'contact', 'collisions', 'shot/result', 'journal',
@@ -48,7 +49,7 @@ TOPICS = {
 IMPORTS = {
     'golf_sim_ros.course': ('load_course', 'load_round', 'shipped_courses', 'CourseError'),
     'golf_sim_ros.bag': ('read_bag', 'BagError'),
-    'golf_sim_ros.wind': ('Gusts', 'GustSettings'),
+    'golf_sim_ros.wind': ('Gusts', 'GustSettings', 'WindField', 'FieldError', 'solve'),
     'golf_sim_ros.physics': (
         'Air', 'Ball', 'BallState', 'Collision', 'Course', 'Cylinder', 'EFFECTS', 'ENGINES',
         'EngineUnavailable', 'Heightmap', 'LogProfile', 'Material', 'Mesh', 'NoPlace', 'PENNER',

@@ -23,7 +23,7 @@ made here.
 from pathlib import Path
 import sys
 
-from courses import friends_bunkers, links, playground, putting_green
+from courses import friends_bunkers, links, playground, putting_green, tall_pines
 
 SHIPPED = Path(__file__).resolve().parent.parent / 'config' / 'courses'
 
@@ -31,7 +31,7 @@ SHIPPED = Path(__file__).resolve().parent.parent / 'config' / 'courses'
 def main(folder=SHIPPED):
     """Write all files into `folder`."""
     Path(folder).mkdir(parents=True, exist_ok=True)
-    for module in (friends_bunkers, links, playground, putting_green):
+    for module in (friends_bunkers, links, playground, putting_green, tall_pines):
         for name, content in module.files().items():
             (Path(folder) / name).write_bytes(content)
 

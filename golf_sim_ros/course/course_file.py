@@ -43,7 +43,6 @@ from .schema import (
     polygon,
     record,
     refused,
-    shown,
     tagged,
     text,
     unknown,
@@ -61,6 +60,7 @@ from ..physics.geometry.zone import Zone
 from ..physics.properties.air import Air, density, standard_atmosphere
 from ..physics.properties.material import Material
 from ..physics.scene.course_record import Ball, Course
+from ..wind import FieldError, WindField
 
 __all__ = ['CourseError', 'load_course', 'load_round', 'shipped_courses']
 
@@ -147,6 +147,18 @@ def load_course(name_or_path: str | PathLike[str]) -> Course:
     CourseError
         One line: file, key, value and what is allowed.
     """
+    return loaded(name_or_path, lambda content: content)
+
+
+def course_without_field(name_or_path: str | os.PathLike) -> Course:
+    """`load_course`, without the wind field that the file may name: to make one for it."""
+    return loaded(
+        name_or_path, lambda content: {k: v for k, v in content.items() if k != 'wind_field'}
+    )
+
+
+def loaded(name_or_path: str | os.PathLike, taken: Callable[[dict], dict]) -> Course:
+    """Course of a file, of what ``taken(content)`` gives."""
     path, raw, content = opened_course(name_or_path)
     names = round_of(path, content)
     if names is not None:
@@ -157,6 +169,7 @@ def load_course(name_or_path: str | PathLike[str]) -> Course:
     opened: Opened = {}
     try:
         with uncollected(), np.errstate(all='ignore'):  # whatever is not finite is refused
+            content = taken(content) if isinstance(content, dict) else content
             course = course_of(content, base, path.parent, sources, opened)
     except CourseError as error:
         raise CourseError(f'{path}: {error}') from None
@@ -282,7 +295,7 @@ def course_of(
             'effects': effects,
             'ball': BALL,
             'materials': mapping,
-            'wind_field': to_come,
+            'wind_field': field_of(folder, sources),
             'water': list_of(WATER, 'a list of ponds, as in [{polygon: [[x, y], ...], level: z}]'),
             'zones': list_of(zone_of(known), 'a list of zones'),
             'obstacles': list_of(obstacle_of(known), 'a list of obstacles'),
@@ -294,7 +307,11 @@ def course_of(
     course = Course(
         cup=known['cup'],
         stick=known['flagstick'],
-        **{name: value for name, value in found.items() if name in Course._fields},
+        **{
+            name: value
+            for name, value in found.items()
+            if name in Course._fields and name != 'wind_field'
+        },
     )
     files = [entry.get('file', entry.get('heights')) for entry in content['ground']]
     look = looker(course)
@@ -303,6 +320,7 @@ def course_of(
     if course.hole is not None:
         even_around_hole(course, files)
     free_at_tee(course)
+    course = with_field(course, found.get('wind_field'))
     return course._replace(notes=(*notes, *misplaced(course, files)))
 
 
@@ -464,8 +482,28 @@ def effects(value: Any, key: str) -> str | tuple[str, ...]:
     return list_of(one_of(names), 'auto, or a list of: ' + ', '.join(sorted(names)))(value, key)
 
 
-def to_come(value: Any, key: str) -> tuple:
-    """Check a key that the physics does not know yet: only an empty value passes."""
-    if value != []:
-        raise CourseError(f'{key} {shown(value)} is not yet supported; leave it out')
-    return ()
+def field_of(folder: Path, sources: dict[str, bytes]) -> Callable[[Any, str], WindField | None]:
+    """Make a checker of ``wind_field``, a file's name: its `WindField`, None of an empty list."""
+
+    def check(value: Any, key: str) -> WindField | None:
+        if value == []:  # how files said so when there were none yet
+            return None
+        path = beside(folder, text(value, key))
+        try:
+            sources[value] = bytes_of(path)
+            return WindField.read(sources[value])
+        except (CourseError, FieldError) as error:
+            raise CourseError(f'{key} {value}: {error}') from None
+
+    return check
+
+
+def with_field(course: Course, field: WindField | None) -> Course:
+    """`course` with a `WindField`, which has to be that of its land."""
+    if field is None:
+        return course
+    try:
+        field.fits(course)
+    except FieldError as error:
+        raise CourseError(f'wind_field {error}') from None
+    return course._replace(wind_field=field.atlas)

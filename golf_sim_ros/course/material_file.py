@@ -73,6 +73,8 @@ FIELDS: dict[str, Checker] = {
     'ploughing': number(0, 100),
     'color': vector(3, 0, 1),
     'drag': number(0, 1000),
+    'roughness': number(1e-6, 10),
+    'canopy_drag': number(0, 100),
 }
 
 

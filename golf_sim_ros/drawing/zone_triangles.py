@@ -20,9 +20,9 @@ from typing import Any
 
 import numpy as np
 
-from .polygon_triangles import Polygon, sides, triangles
+from .polygon_triangles import Polygon, triangles
 from ..physics import Material
-from ..physics.geometry.zone import zones_of
+from ..physics.geometry.zone import places_inside, zones_of
 
 FEW = 20  # zones on a tile; fewer on all of a surface are drawn at once
 MOST_CELLS = 20000  # of a height map that are drawn: a message of about 3 MB
@@ -115,16 +115,9 @@ def in_region(
     polygon: Polygon, cuts: Iterable[Polygon], x: np.ndarray, y: np.ndarray
 ) -> np.ndarray:
     """Whether `polygon`, without `cuts`, holds each place."""
-    return holds(polygon, x, y) & ~np.any([holds(cut, x, y) for cut in cuts], axis=0)
-
-
-def holds(polygon: Polygon, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Whether `polygon` holds each place: a ray to the right leaves it an odd number of times."""
-    odd = np.zeros(len(x), bool)
-    for (ax, ay), (bx, by) in sides(polygon):
-        crossed = (ay > y) != (by > y)
-        odd[crossed] ^= x[crossed] < ax + (bx - ax) * (y[crossed] - ay) / (by - ay)
-    return odd
+    return places_inside(polygon, x, y) & ~np.any(
+        [places_inside(cut, x, y) for cut in cuts], axis=0
+    )
 
 
 def cells(heights: Any, origin: Sequence[float], spacing: float) -> np.ndarray:

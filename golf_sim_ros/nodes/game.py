@@ -89,7 +89,8 @@ class Game:
         # Of strikes under way, by those of the world, which counts only what it accepts.
         self.numbers: dict[int, int] = {}
         self.inputs: list[Callable[[], None]] = []
-        self.live = world.live  # live parameters of effects, as last received
+        # Live parameters of effects, as last received.
+        self.live: dict[str, tuple[float, ...]] = {}
         self.paused = self.stood_still = False  # now, and at any time since the last diagnostics
         self.failures = 0  # of balls that could not be simulated further, as last published
         # When the last advance began.

@@ -98,7 +98,12 @@ class SimNode(Node):
         """Make the `World` as `given`, ready: no shot shall wait for a compiler."""
         began = perf_counter()
         world = World(
-            load_course(given.course), given.balls, given.effects, given.accuracy, engine='python'
+            load_course(given.course),
+            given.balls,
+            given.effects,
+            given.accuracy,
+            engine='python',
+            turbulence=(given.turbulence, given.turbulence_seed),
         )
         if given.engine == 'compiled':
             load_compiled(world, self.get_logger())

@@ -36,7 +36,8 @@ PART = 5000  # shots between two updates of the progress
 # Plain Python plays a shot in 0.3 s; loading takes 2 s, compiling a minute.
 FEW_SHOTS, MANY_SHOTS = 20, 200
 SHORT_WAIT = 5.0  # s: loading is over by then
-ANY_SHOT = np.array([[1.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
+ANY_SHOT = np.array([[1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]])
+BLOWN = 'wind', 'wind_field', 'turbulence'  # effects that a gust changes
 
 # Gives back the parts of a whole, of which there are ``total``, and shows how far they are.
 Progress = Callable[..., Iterable[Any]]
@@ -94,8 +95,15 @@ def played(batch: Batch, strikes: np.ndarray, progress: Optional[Progress] = Non
     world = world_of(batch)
     play = jit.compiled(play_all) if batch.engine == 'compiled' else play_all
     parts = np.array_split(strikes, max(1, len(strikes) // PART))
-    blowing = Schedule(world._chosen.on.get('wind', Nothing()), batch.gusts)
-    scene = world._model, world._balls, blowing, world._workspace, world._log
+    on = world._chosen.on
+    blowing = tuple(on[name] for name in BLOWN if name in on) or (Nothing(),)
+    scene = (
+        world._model,
+        world._balls,
+        Schedule(blowing, batch.gusts),
+        world._workspace,
+        world._log,
+    )
     found = [
         ends(play, scene, part)
         for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)
@@ -119,7 +127,7 @@ def ends(
         if len(strikes) > 1:
             return np.concatenate([ends(play, scene, part) for part in np.array_split(strikes, 2)])
     ball, end = balls[0].copy(), np.empty(1, ENDED)
-    ball['velocity'], ball['spin'] = strikes[0, :3], strikes[0, 3:]
+    ball['velocity'], ball['spin'] = strikes[0, :3], strikes[0, 3:6]
     begin_shot(ball, 0.0)
     fail(ball, 0, 0.0, NOT_FINITE, log)
     copy_result(ball, end[0])

@@ -200,7 +200,10 @@ def simulate_many(
 
 
 def checked_strikes(velocities: ArrayLike, spins: ArrayLike) -> np.ndarray:
-    """Velocities and spins side by side, (n, 6); ValueError where a shot can't be played."""
+    """Velocities, spins and numbers of shots side by side, (n, 7).
+
+    ValueError where a shot can't be played.
+    """
     velocities, spins = np.asarray(velocities, float), np.asarray(spins, float)
     if velocities.ndim != 2 or velocities.shape[1] != 3 or spins.shape != velocities.shape:
         raise ValueError(
@@ -210,7 +213,8 @@ def checked_strikes(velocities: ArrayLike, spins: ArrayLike) -> np.ndarray:
         reason = objection(velocities[i], spins[i])
         if reason:
             raise ValueError(f'shot {i}: {reason}')
-    return np.ascontiguousarray(np.hstack([velocities, spins]))
+    numbers = np.arange(len(velocities), dtype=float)[:, None]
+    return np.ascontiguousarray(np.hstack([velocities, spins, numbers]))
 
 
 def check_hole(course: Course) -> None:

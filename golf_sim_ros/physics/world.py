@@ -23,7 +23,8 @@ import numpy as np
 
 from . import placement, reporting
 from .collision.workspace import INVOLVED, new_workspace, TREE_AGE
-from .effects import choose, EffectNames, Scene
+from .effects import choose, EffectNames, Scene, set_drift
+from .effects.turbulence import drifted
 from .engine.engines import checked_engine, compiled_engine, Program, PYTHON
 from .engine.event_loop import LOG_FULL, STAGES
 from .jit.build import Build, Part
@@ -336,8 +337,19 @@ class World:
         if not self.moving:
             if self._program:
                 self._take_over(self._program)
+            self._carry(0.0)
             self._now = 0.0
             self._forget_tree()  # or its shape would depend on the play before
+
+    def _carry(self, now: float) -> None:
+        """Let the wind carry its turbulence up to now, which is `now` on the clock from here."""
+        intensity, seed, *before = self._live['turbulence']
+        if intensity == 0.0:
+            return
+        drift, wind = np.array(before), np.array(self._live['wind'])
+        x, y, _ = drifted(three(drift), three(wind), self._now)
+        self._live['turbulence'] = (intensity, seed, x, y, now)
+        set_drift(self._model.effects, (x, y, now))
 
     def _forget_tree(self) -> None:
         """Let the engine build the tree of the balls' boxes anew."""
@@ -455,6 +467,8 @@ class World:
         value = checked_live(effect, value)
         if value == self._live[effect]:
             return
+        if effect == 'wind':
+            self._carry(self._now)
         self._live[effect] = value
         self._choose()
         self._model = model_.with_effects(self._model, self._records)
@@ -575,8 +589,11 @@ class World:
         """
         if state['accuracy'] != self.accuracy:
             self.accuracy = state['accuracy']
-        for effect, live in LIVE.items():  # what a recording does not know yet was at its default
-            self.set_live(effect, state.get(effect, live.default))
+        # What a recording does not know yet was at its default.
+        live = {effect: state.get(effect, of.default) for effect, of in LIVE.items()}
+        self._live = live_values(live)
+        self._choose()
+        self._model = model_.with_effects(self._model, self._records)
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
         self._forget_tree()

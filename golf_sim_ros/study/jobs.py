@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache, partial
 from typing import Any
 
-from . import effects, promises, sizes, ticks
+from . import effects, promises, sizes, ticks, wind_fields
 from .measure import measured, Row, Stage, Truth
 from .methods import Method, methods, TRUTH
 from .scenes import Game, quick_scenes, Scene, scenes
@@ -39,6 +39,7 @@ def jobs(quick: bool) -> list[tuple[str, Callable[[], Any]]]:
         ticked = [one for one in found if isinstance(one, Scene) and one.name in TICKED]
         parts['ticks'] = ticks.jobs(ticked)
         parts['sizes'] = sizes.jobs(found[1].course.ground[0].material)
+        parts['wind'] = wind_fields.jobs()
     return [(part, job) for part, some in parts.items() for job in some]
 
 

@@ -29,7 +29,8 @@ def write(found: dict[str, list], folder: Path, command: str) -> None:
     Parameters
     ----------
     found : dict of str to list
-        Rows by 'methods' and 'promises', and of a full study by 'effects', 'ticks' and 'sizes'.
+        Rows by 'methods' and 'promises', and of a full study by 'effects', 'ticks', 'sizes' and
+        'wind'.
     folder : pathlib.Path
     command : str
         What made them.
@@ -68,6 +69,7 @@ def facts(part: str, rows: Sequence[Any]) -> dict[str, Any]:
         'effects': {'table': tables.effect_table, 'dispensable': tables.dispensable},
         'ticks': {'table': tables.tick_table, 'costs': tables.tick_costs, 'spread': tables.spread},
         'sizes': {'table': tables.size_table},
+        'wind': {'table': tables.wind_table},
     }
     return {name: make(rows) for name, make in made[part].items()}
 
@@ -78,6 +80,7 @@ NAMES = {
     'effects': 'accuracy_effects',
     'ticks': 'accuracy_ticks',
     'sizes': 'accuracy_sizes',
+    'wind': 'accuracy_wind',
 }
 DRAW: dict[str, Callable[[Sequence[Any], Path], None]] = {
     'methods': figures.draw,
@@ -197,6 +200,20 @@ triangles. Contacts: a ball hits a row of as many that touch, all of which push 
 {table}
 """
 
+WIND = """
+## Wind fields
+
+Fields of `tall_pines`, a par 3 between trees, in 8 m/s into four directions: levels of accuracy,
+each solved for in these directions, against `reference`; and fields of several directions,
+blended, against those of the very direction. The difference of the air at 2 and 10 m over the
+ground is over the wind far upstream; a driver, a 7 iron and two wedges come down so far apart,
+trees apart.
+
+{table}
+
+[wind.md](wind.md) says which level is for what.
+"""
+
 ROWS = """
 ## All rows
 
@@ -209,4 +226,5 @@ SECTIONS = {
     'effects': EFFECTS,
     'ticks': TICKS,
     'sizes': SIZES,
+    'wind': WIND,
 }

@@ -24,6 +24,7 @@ from .measure import Row
 from .promises import PromiseRow
 from .sizes import SizeRow
 from .ticks import TickRow
+from .wind_fields import WindRow
 from ..physics import ACCURACY
 
 LEVELS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)  # m
@@ -216,6 +217,20 @@ def size_table(rows: Sequence[SizeRow]) -> str:
     lines += [
         f'| {row.what} | {row.count} | {1e6 * row.time:.0f} us '
         f'| {1e6 * row.time / row.count:.3g} us |'
+        for row in rows
+    ]
+    return '\n'.join(lines)
+
+
+def wind_table(rows: Sequence[WindRow]) -> str:
+    """Markdown table of wind fields against better ones."""
+    lines = [
+        '| field | air at 2 m | at 10 m | landing, mean | at most | cells | a direction |',
+        '|---|---|---|---|---|---|---|',
+    ]
+    lines += [
+        f'| {row.what} | {row.low:.1%} | {row.high:.1%} | {row.landing:.2f} m | '
+        f'{row.farthest:.2f} m | {row.cells} | {row.time:.1f} s |'
         for row in rows
     ]
     return '\n'.join(lines)

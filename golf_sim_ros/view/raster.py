@@ -23,12 +23,11 @@ from typing import Any
 
 import numpy as np
 
-from ..drawing.zone_triangles import holds
 from ..physics import Course, geometry, ground_height, Heightmap, Mesh, Patch, Plane
 from ..physics.geometry.bicubic import hermite, slopes
 from ..physics.geometry.heightmap import corners
 from ..physics.geometry.plane_patch import frame
-from ..physics.geometry.zone import zones_of
+from ..physics.geometry.zone import places_inside, zones_of
 from ..physics.scene.kernel_model import materials
 
 SAME_HEIGHT = 1e-6  # m: at equal height the later shape counts
@@ -120,9 +119,9 @@ def box(low: np.ndarray, high: np.ndarray, x: np.ndarray, y: np.ndarray) -> tupl
 def covered(polygon: Any, cuts: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Whether `polygon`, without `cuts`, holds each place of a grid."""
     places = [grid.ravel() for grid in np.meshgrid(x, y)]
-    inside = holds(polygon, *places)
+    inside = places_inside(polygon, *places)
     for cut in cuts:
-        inside &= ~holds(cut, *places)
+        inside &= ~places_inside(cut, *places)
     return inside.reshape(len(y), len(x))
 
 

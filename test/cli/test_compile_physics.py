@@ -24,7 +24,7 @@ import pytest
 def test_it_says_where_what_is_compiled_is_kept(capsys):
     assert main(['--only', 'one ball']) == 0
     assert capsys.readouterr().out == f'kept in {cache.folder().path}\n'
-    assert main(['--only', 'one ball', '--course', 'links']) == 0  # the same program
+    assert main(['--only', 'one ball', '--course', 'playground']) == 0  # the same program
 
 
 def test_without_numba_it_says_how_to_get_it(capsys, monkeypatch):

@@ -372,7 +372,8 @@ obstacles:
         ('ball: {mass: 0}', 'ball.mass 0 must be a number from 1e-06 to 1000'),
         ('ball: {restitution: 1.1}', 'ball.restitution 1.1 must be a number from 0 to 1'),
         ('ball: {weight: 1}', "ball: key 'weight' is unknown; known: friction, inertia,"),
-        ('wind_field: x.npz', "wind_field 'x.npz' is not yet supported; leave it out"),
+        ('wind_field: x.npz', 'wind_field x.npz: cannot be read: No such file or directory'),
+        ('wind_field: 3', 'wind_field 3 must be a line of text'),
         (
             'zones: [{material: green}]',
             "zones[0]: key 'polygon' is missing; needed: material, polygon",
@@ -516,7 +517,7 @@ def test_a_wrong_line_is_named(complaint, line, said):
         ),
         ('{a: {color: [1, 0, 2]}}', 'materials.a.color[2] 2 must be a number from 0 to 1'),
         ('{a: {color: red}}', "materials.a.color 'red' must be 3 numbers"),
-        ('{a: {frction: 1}}', "materials.a: key 'frction' is unknown; known: color, drag"),
+        ('{a: {frction: 1}}', "materials.a: key 'frction' is unknown; known: canopy_drag"),
     ],
 )
 def test_a_wrong_material_is_named(complaint, section, said):

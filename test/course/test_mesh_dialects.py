@@ -23,8 +23,8 @@ from golf_sim_ros.course import load_course
 from golf_sim_ros.course.mesh_file import read_mesh
 from golf_sim_ros.course.schema import CourseError
 from golf_sim_ros.course.stl_file import STL_TRIANGLE
-from golf_sim_ros.drawing.zone_triangles import holds
 from golf_sim_ros.physics import ground_height, Shot, simulate
+from golf_sim_ros.physics.geometry.zone import places_inside
 import numpy as np
 import pytest
 
@@ -265,7 +265,7 @@ def test_a_face_with_corners_anywhere_covers_what_it_encloses_and_no_more(
     read, polygon, ground, slope
 ):
     x, y = np.random.default_rng(5).uniform(-22, 22, (2, 500))
-    enclosed = holds(tuple(polygon), x, y)
+    enclosed = places_inside(tuple(polygon), x, y)
     for first in range(0, len(polygon), max(1, len(polygon) // 7)):
         for corners in (polygon, polygon[::-1]):
             vertices, faces, _ = read('a.obj', obj_of(corners, slope, first))
@@ -274,7 +274,8 @@ def test_a_face_with_corners_anywhere_covers_what_it_encloses_and_no_more(
             )
             triangles = vertices[faces][:, :, :2]
             assert (
-                np.sum([holds(tuple(map(tuple, t)), x, y) for t in triangles], 0) == enclosed
+                np.sum([places_inside(tuple(map(tuple, t)), x, y) for t in triangles], 0)
+                == enclosed
             ).all()
 
 

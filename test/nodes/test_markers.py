@@ -18,7 +18,6 @@ from math import cos, hypot, pi, sin
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.drawing.polygon_triangles import triangles
-from golf_sim_ros.drawing.zone_triangles import holds
 from golf_sim_ros.nodes.conversions import header
 from golf_sim_ros.nodes.markers.course_markers import (
     course_markers,
@@ -42,6 +41,7 @@ from golf_sim_ros.physics import (
     World,
 )
 from golf_sim_ros.physics.geometry.cup import DEPTH
+from golf_sim_ros.physics.geometry.zone import places_inside
 from hypothesis import given, strategies
 import numpy as np
 import pytest
@@ -89,7 +89,7 @@ def surfaces(array):
 
 def covers(pieces, x, y):
     x, y = np.array([x]), np.array([y])
-    return any(holds([corner[:2] for corner in piece], x, y)[0] for piece in pieces)
+    return any(places_inside([corner[:2] for corner in piece], x, y)[0] for piece in pieces)
 
 
 def test_a_square_without_cuts_is_two_triangles():

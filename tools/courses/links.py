@@ -46,13 +46,15 @@ WOODS = [((60.0, 38.0), (30.0, 10.0)), ((185.0, 42.0), (32.0, 9.0)), ((290.0, -4
 TEXT = """\
 # A par 4 of 346 m between dunes, in one height map of 400 x 120 m: over rough to a fairway that bends, with a
 # pond to its right, bunkers where drives and approaches end, and a green with a tier.
-# Made by tools/make_courses.py; change it there.
+# The wind over it was solved for, with its dunes and trees: links_wind.npz.
+# Made by tools/make_courses.py, its wind by tools/make_wind_fields.py; change it there.
 format: 1
 name: Links
 tee: {tee}
 hole: {hole}
 flagstick: true
 bounds: [[-14, -54], [374, -54], [374, 54], [-14, 54]]
+wind_field: links_wind.npz
 
 ground:
   # Level ground around the heights, whose outline lies at 0, too.

@@ -25,7 +25,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..effects import flight_rates, protocol, Scene
+from ..effects import at_time, flight_rates, protocol, Scene
 from ..effects.ferguson_lift import record as lift
 from ..effects.gravity import Gravity
 from ..effects.linear_drag import LinearDrag
@@ -113,6 +113,7 @@ def _play(
         time = 0.0
         while one['phase'] == FLIGHT and time < LONGEST_REPORT_SHOT:
             time += REPORT_STEP
+            at_time(model.effects, time)
             move(model, one)
             push_out(model.land, one, time, absorbs)
     return ends

@@ -19,10 +19,11 @@ the file. ``record`` gives the effect's record for a scene; ``idle`` gives the r
 can do without it, or '' if it can't. An idle effect does not run and is not compiled in. Where the
 file defines ``dormant(scene)`` too, a record of the same type that does nothing, a compiled
 `World` keeps that instead: so one program serves every course, and nothing compiles when the
-effect is switched on. A file with ``INSTEAD_OF``, names of effects, is another model of the same:
-a scene gets it only by name. What of an effect may change while balls move is its ``LIVE``, a
-`Live` of :mod:`.protocol`; `record` and `idle` read it by ``scene.live_value``. Other packages add
-their effects with :func:`register_effect`, and such parameters to `LIVE`.
+effect is switched on; None where the course can't have it. A file with ``INSTEAD_OF``, names of
+effects, is another model of the same: a scene gets it only by name; one with ``SAME_AS`` is
+another, too, that the scene chooses. What of an effect may change while balls move is its
+``LIVE``, a `Live` of :mod:`.protocol`; `record` and `idle` read it by ``scene.live_value``. Other
+packages add their effects with :func:`register_effect`, and such parameters to `LIVE`.
 """
 
 from difflib import get_close_matches
@@ -60,14 +61,15 @@ class Effect(NamedTuple):
     """Known effect: how to build its record and its dormant one, and when a scene needs none.
 
     ``instead_of``: names of the effects to which it is an alternative; such a one is never
-    automatic.
+    automatic. ``same_as``: those in whose place it acts in the scenes that it is automatic in.
     """
 
     record: Callable[[Scene], EffectRecord]
     idle: Callable[[Scene], str]
     doc: str
-    dormant: Optional[Callable[[Scene], EffectRecord]] = None
+    dormant: Optional[Callable[[Scene], Optional[EffectRecord]]] = None
     instead_of: tuple[str, ...] = ()
+    same_as: tuple[str, ...] = ()
 
 
 class Chosen(NamedTuple):
@@ -138,6 +140,7 @@ def choose(names: EffectNames, scene: Scene) -> Chosen:
     names = (names,) if isinstance(names, str) else tuple(names)
     auto = names == ('auto',)
     check(() if auto else names)
+    check_in(() if auto else names, scene)
     on, off = {}, {}
     for name, effect in EFFECTS.items():
         asked = not effect.instead_of if auto else name in names
@@ -172,12 +175,28 @@ def check(names: Iterable[str]) -> None:
                 )
 
 
+def check_in(names: Iterable[str], scene: Scene) -> None:
+    """Check that `names` are not two laws for the same in this `scene`; ValueError if they are."""
+    for name in names:
+        twice = set(EFFECTS[name].same_as) & set(names)
+        if twice and not EFFECTS[name].idle(in_wind(scene)):
+            raise ValueError(
+                f'effects {min(twice)!r} and {name!r} are two laws for the same here; name one'
+            )
+
+
+def in_wind(scene: Scene) -> Scene:
+    """`scene` when some wind blows."""
+    return scene._replace(live={**scene.live, 'wind': (1.0, 0.0, 0.0)})
+
+
 def needless(names: Iterable[str], scene: Scene) -> dict[str, str]:
     """Reasons, by name, of those of `names` that `scene` can't have, whatever changes in it.
 
-    An effect with a live parameter may be called for at any time.
+    An effect with a live parameter may be called for at any time, and wind may come.
     """
-    reasons = {name: EFFECTS[name].idle(scene) for name in names if name not in LIVE}
+    windy = in_wind(scene)
+    reasons = {name: EFFECTS[name].idle(windy) for name in names if name not in LIVE}
     return {name: reason for name, reason in reasons.items() if reason}
 
 
@@ -276,6 +295,23 @@ def longest_allowed_step(
 
 
 @kernel
+def at_time(effects: Effects, time: float) -> None:
+    """Tell the effects which `time` [s] they are asked about next. Writes into their records."""
+    for effect in literal_unroll(effects):
+        protocol.at_time(effect, time)
+
+
+@kernel
+def set_drift(effects: Effects, drift: Vector) -> None:
+    """Set how far the wind has carried the air; see `protocol.set_drift`.
+
+    Writes into the effects' records.
+    """
+    for effect in literal_unroll(effects):
+        protocol.set_drift(effect, drift)
+
+
+@kernel
 def effective_normal(
     effects: Effects, normal: Vector, velocity: Vector, softness: float
 ) -> Vector:
@@ -308,6 +344,8 @@ def _discover() -> None:
                 getattr(found, 'dormant', None),
                 getattr(found, 'INSTEAD_OF', ()),
             )
+            known = EFFECTS[module.name]
+            EFFECTS[module.name] = known._replace(same_as=getattr(found, 'SAME_AS', ()))
             if hasattr(found, 'LIVE'):
                 LIVE[module.name] = found.LIVE
 

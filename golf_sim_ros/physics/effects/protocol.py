@@ -158,8 +158,18 @@ def departure(effect: EffectRecord, hit: Hit, velocity: Vector) -> Vector:
 
 
 @generic
+def at_time(effect: EffectRecord, time: float) -> None:
+    """Tell an `effect` that changes with time which `time` [s] it is asked about next."""
+
+
+@generic
+def set_drift(effect: EffectRecord, drift: Vector) -> None:
+    """Set how far the wind has carried what is in an `effect`: x and y [m], at a time [s]."""
+
+
+@generic
 def set_live(effect: EffectRecord, value: np.ndarray) -> None:
     """Set the live parameter that is in the record of an `effect`, if it holds any.
 
-    For schedules: it changes within a call of the engine.
+    For schedules: it changes within a call of the engine. What the wind drives takes the wind.
     """

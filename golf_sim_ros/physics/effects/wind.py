@@ -131,7 +131,9 @@ def record(scene: Scene) -> Wind:
 
 
 def idle(scene: Scene) -> str:
-    """Reason why `scene` does without the effect, still air, or ''."""
+    """Reason why `scene` does without the effect, still air or a field of wind, or ''."""
+    if scene.course.wind_field is not None:
+        return 'the course has a wind field'
     return '' if any(scene.live_value('wind')) else 'no wind'
 
 

@@ -35,11 +35,11 @@ from .planner import (
 from ..collision import ball_gap, ball_interactions  # noqa: F401  (ball_gap registers laws)
 from ..collision.workspace import INVOLVED, next_event_ball
 from ..contact.contact_state import choose_contact_mode
-from ..effects import protocol
+from ..effects import at_time, protocol, set_drift
 from ..geometry import surfaces
 from ..geometry.surfaces import Ground
-from ..jit import borrowed, cycles, entry, kernel, shared
-from ..kernel_types import BallRecord, EffectRecord, ModelRecord, WorkRecord
+from ..jit import borrowed, cycles, entry, kernel, literal_unroll, shared
+from ..kernel_types import BallRecord, Effects, ModelRecord, WorkRecord
 from ..mechanics.vector import load, store, unit, ZERO
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws)
 from ..response.collision_log import log_out_of_bounds
@@ -80,6 +80,8 @@ from ..trajectory.shot_record import (
 DONE, LOG_FULL = range(2)
 STAGES = 'flight', 'contact', 'broad phase'
 IN_FLIGHT, IN_CONTACT, IN_BROAD_PHASE = range(3)
+# m along x and y between the air of two shots of a batch: each meets other eddies
+EDDIES_APART = 173.2, 91.6
 EVENTS_A_BALL = 3  # events that one segment's end can log, beside impacts of balls
 
 
@@ -139,6 +141,7 @@ def resolve(model: ModelRecord, balls: np.ndarray, i: int, work: WorkRecord, log
     """
     ball = balls[i]
     now = ball['end']
+    at_time(model.effects, now)
     ending = ball['ending']
     if ending != LAUNCH:
         update_apex(ball)
@@ -309,13 +312,13 @@ def is_in_hole(model: ModelRecord, ball: BallRecord) -> bool:
 
 
 class Schedule(NamedTuple):
-    """What changes during a shot: a live parameter of the effect of ``record``.
+    """What changes during a shot: a live parameter of the effects of ``records``.
 
-    ``rows``: a time since the strike [s], the first 0, and the values from then on. The record is
-    one of the model's, or shares its arrays.
+    ``rows``: a time since the strike [s], the first 0, and the values from then on. The records
+    are of the model, or share its arrays.
     """
 
-    record: EffectRecord
+    records: Effects
     rows: np.ndarray
 
 
@@ -330,7 +333,8 @@ def play_all(
 ) -> np.ndarray:
     """Play shots one after the other, each from the state in `ball`; their ends, an `ENDED` array.
 
-    `ball` is an array of one; rows of `strikes` are velocity and spin. Writes work, log.
+    `ball` is an array of one; rows of `strikes` are velocity, spin and the shot's number. Writes
+    work, log.
     """
     model = borrowed(model)
     work = borrowed(work)
@@ -346,18 +350,31 @@ def play_all(
         store(one[0]['velocity'], load(strikes[i, 0:3]))
         store(one[0]['spin'], load(strikes[i, 3:6]))
         begin_shot(one[0], 0.0)
-        protocol.set_live(schedule.record, rows[0, 1:])
+        follow(schedule.records, model.effects, 0.0, rows[0, 1:])
+        apart = strikes[i, 6]
+        set_drift(model.effects, (EDDIES_APART[0] * apart, EDDIES_APART[1] * apart, 0.0))
         row = 1
         while one[0]['shot_active']:
             log.count[:] = 0
             # After the last row up to a time by which every shot has ended.
             until = rows[row, 0] if row < len(rows) else LONGEST_SHOT + 1.0
             if run_events(model, one, until, work, log) == DONE and row < len(rows):
-                protocol.set_live(schedule.record, rows[row, 1:])
+                follow(schedule.records, model.effects, until, rows[row, 1:])
                 end_now(one[0], until)
                 row += 1
         copy_result(one[0], ends[i])
     return ends
+
+
+@kernel
+def follow(records: Effects, effects: Effects, now: float, value: np.ndarray) -> None:
+    """Set the live parameter of `records`, some of the `effects`, at a time `now`.
+
+    Writes into the records.
+    """
+    at_time(effects, now)
+    for record in literal_unroll(records):
+        protocol.set_live(record, value)
 
 
 @kernel

@@ -38,7 +38,7 @@ from ..contact.contact_state import (
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment, resists_evenly
 from ..contact.straight_rolling import rolling_segment, rolls_straight
-from ..effects import flight_rates, gravity_at, moving_air
+from ..effects import at_time, flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..geometry.water_surface import water_at
 from ..integrators import step
@@ -95,6 +95,7 @@ def plan_next_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     motion. The last four change only where contact does.
     """
     ball['begin'] = now
+    at_time(model.effects, now)
     if not moves(ball['phase']):
         segment.stay_in_place(ball)
         ball['end'] = inf

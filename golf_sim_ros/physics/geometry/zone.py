@@ -16,6 +16,8 @@
 
 from typing import Any, Iterable, NamedTuple, Union
 
+import numpy as np
+
 from .polygon import Outline
 from ..properties.material import Material
 
@@ -34,3 +36,18 @@ class Zone(NamedTuple):
 def zones_of(zones: Iterable[Union[Zone, tuple[Any, ...]]]) -> tuple[Zone, ...]:
     """`Zone` records of `zones`, which may also be pairs of material and polygon."""
     return tuple(Zone(*zone) for zone in zones)
+
+
+def places_inside(polygon: Any, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Whether `polygon` holds each place: a ray to the right leaves it an odd number of times.
+
+    `x` and `y` are arrays of the same shape.
+    """
+    odd = np.zeros(np.shape(x), bool)
+    before = polygon[-1]
+    for corner in polygon:
+        (ax, ay), (bx, by) = before, corner
+        crossed = (ay > y) != (by > y)
+        odd[crossed] ^= x[crossed] < ax + (bx - ax) * (y[crossed] - ay) / (by - ay)
+        before = corner
+    return odd

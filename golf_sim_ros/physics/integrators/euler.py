@@ -32,7 +32,8 @@ class SemiImplicitEuler(NamedTuple):
 @runge_kutta.step_by.register(SemiImplicitEuler)
 def _step(method: SemiImplicitEuler, model: ModelRecord, ball: BallRecord) -> None:
     h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
-    runge_kutta.stage(model, ball, 0, runge_kutta.state_after(ball, runge_kutta.NO_CHANGE))
+    now = runge_kutta.state_after(ball, runge_kutta.NO_CHANGE)
+    runge_kutta.stage(model, ball, 0, now, ball['begin'])
     h = runge_kutta.longest(model, ball, h)
     rates = ball['stages'][0]
     force = load(rates[3:6])

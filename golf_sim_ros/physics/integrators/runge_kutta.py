@@ -18,7 +18,7 @@ from math import inf, sqrt
 
 import numpy as np
 
-from ..effects import gravity_at, longest_allowed_step, wind_at
+from ..effects import at_time, gravity_at, longest_allowed_step, wind_at
 from ..jit import generic, kernel
 from ..kernel_types import BallRecord, MethodRecord, ModelRecord, MotionState
 from ..mechanics.vector import add_scaled, dot, length, load, store, sub
@@ -84,18 +84,28 @@ def next_step(method: MethodRecord, h: float, error: float, most: float) -> floa
 
 
 @kernel
-def stage(model: ModelRecord, ball: BallRecord, i: int, state: MotionState) -> None:
-    """Evaluate stage `i` at `state`, position, velocity and spin in one tuple.
+def stage(model: ModelRecord, ball: BallRecord, i: int, state: MotionState, time: float) -> None:
+    """Evaluate stage `i` at `state`, position, velocity and spin in one tuple, and at that `time`.
 
     Writes stages, evaluations.
     """
     x, y, z, u, v, w, p, q, r = state
+    at_time(model.effects, time)
     force, torque = rates(model, ball, (x, y, z), (u, v, w), (p, q, r))
     row = ball['stages'][i]
     store(row[0:3], (u, v, w))
     store(row[3:6], force)
     store(row[6:9], torque)
     ball['evaluations'] += 1
+
+
+@kernel
+def total(row: np.ndarray, count: int) -> float:
+    """Sum of the first `count` weights of a tableau's `row`: where in the step its stage is."""
+    share = 0.0
+    for j in range(count):
+        share += row[j]
+    return share
 
 
 @kernel
@@ -164,7 +174,7 @@ def start(model: ModelRecord, ball: BallRecord, last: int) -> None:
     if ball['phase'] == FLIGHT and goes_on:
         ball['stages'][0] = ball['stages'][last]
     else:
-        stage(model, ball, 0, state_after(ball, NO_CHANGE))
+        stage(model, ball, 0, state_after(ball, NO_CHANGE), ball['begin'])
 
 
 @kernel
@@ -227,7 +237,8 @@ def step_by(method: MethodRecord, model: ModelRecord, ball: BallRecord) -> None:
         change = NO_CHANGE
         for i in range(1, last + 1):
             change = mix(ball, rows[i], i, h)
-            stage(model, ball, i, state_after(ball, change))
+            time = ball['begin'] + h * total(rows[i], i)
+            stage(model, ball, i, state_after(ball, change), time)
         error = error_in_metres(ball, weights, h)
         if stands(method, h, error, most):
             break

@@ -73,6 +73,10 @@ class Material(NamedTuple):
     drag : float
         Over 0 a ball passes through, as through leaves, and is braked by drag v^2 at speed v
         [1/m].
+    roughness : float
+        Roughness length that the wind feels [m]; 0: that of the course's wind profile.
+    canopy_drag : float
+        Of leaves: leaf-area density times drag coefficient, by which they brake the wind [1/m].
     """
 
     name: str = 'ideal'
@@ -87,6 +91,8 @@ class Material(NamedTuple):
     drag: float = 0.0
     resistance_growth: float = 0.0
     ploughing: float = 0.0
+    roughness: float = 0.0
+    canopy_drag: float = 0.0
 
 
 def rolling_resistance_of_stimp(stimp: float) -> float:

@@ -17,6 +17,7 @@
 from typing import NamedTuple, Optional, Union
 
 from ..effects.wind import LogProfile, Profile
+from ..effects.wind_field import WindAtlas
 from ..geometry.cup import CUP_MATERIAL
 from ..geometry.polygon import Outline
 from ..geometry.solid import FLAGSTICK_MATERIAL
@@ -68,6 +69,8 @@ class Course(NamedTuple):
         Ponds, lakes, burns: level surfaces; each needs ground below it.
     air : Air
     wind_profile : LogProfile, PowerProfile or UniformProfile
+    wind_field : WindAtlas or None
+        Of the wind over this ground, which then takes the place of the profile.
     effects : 'auto' or tuple of str
     ball : Ball
     name, path, digest : str
@@ -88,6 +91,7 @@ class Course(NamedTuple):
     water: tuple[Water, ...] = ()
     air: Air = Air()
     wind_profile: Profile = LogProfile()
+    wind_field: Optional[WindAtlas] = None
     effects: Union[str, tuple[str, ...]] = 'auto'
     ball: Ball = Ball()
     name: str = ''
