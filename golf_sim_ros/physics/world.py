@@ -141,16 +141,17 @@ class World:
         self._engine = compiled_engine() if engine == 'compiled' else PYTHON
         # Of the compiled engine, if that may take over.
         self._program: Optional[Program] = None
-        self._rebuild()
+        self._choose()
         self._workspace = new_workspace(len(self.names), 'ball_ball' in self.effects_on)
+        self._use(model_.build_model(self.course, self._records, self._preset))
         if engine == 'auto':
             self._program = Program.of(self.program)
         self._tee_up()
 
-    def _rebuild(self) -> None:
-        """Choose the effects again and rebuild the model for kernels."""
-        self._choose()
-        self._model = model_.build_model(self.course, self._records, self._preset)
+    def _use(self, model: model_.Model) -> None:
+        """Give the engine another `model`."""
+        self._model = model
+        self._packed = tuple(map(self._engine.pack, (model, self._workspace, self._log)))
 
     def _choose(self) -> None:
         """Choose the effects, and the records of them for the engine."""
@@ -405,9 +406,9 @@ class World:
         run = self._engine.advance
         if self._program:
             run = partial(self._program.timed, run)
+        model, work, log = self._packed
         try:
-            with np.errstate(all='ignore'):
-                return run(self._model, self._balls, until, self._workspace, self._log)
+            return run(model, self._balls, until, work, log)
         except (ArithmeticError, ValueError):
             at_hand = self._workspace.involved[: self._workspace.count[INVOLVED]].tolist()
             if not at_hand:
@@ -431,6 +432,8 @@ class World:
 
         `start` is the world's time at the zero of the engine's clock.
         """
+        if not self._log.count[0]:
+            return
         events, lost, failures = reporting.report(self._log, self._balls, self._labels, start)
         self._events += events
         self._lost += lost
@@ -471,7 +474,7 @@ class World:
             self._carry(self._now)
         self._live[effect] = value
         self._choose()
-        self._model = model_.with_effects(self._model, self._records)
+        self._use(model_.with_effects(self._model, self._records))
         self._begin_new_segments(self._is_moving)
         self._wake()
 
@@ -483,7 +486,7 @@ class World:
     @accuracy.setter
     def accuracy(self, accuracy: Union[str, Preset]) -> None:
         self._preset, self._accuracy = preset(accuracy), accuracy
-        self._model = model_.build_model(self.course, self._records, self._preset)
+        self._use(model_.build_model(self.course, self._records, self._preset))
         self._begin_new_segments(self._balls['phase'] == FLIGHT)
 
     def _begin_new_segments(self, which: np.ndarray) -> None:
@@ -516,7 +519,8 @@ class World:
         self._program = None
         if name != self.engine:
             self._engine = {'python': PYTHON}.get(name) or compiled_engine()
-            self._rebuild()
+            self._choose()
+            self._use(model_.build_model(self.course, self._records, self._preset))
 
     @property
     def program(self) -> str:
@@ -593,7 +597,7 @@ class World:
         live = {effect: state.get(effect, of.default) for effect, of in LIVE.items()}
         self._live = live_values(live)
         self._choose()
-        self._model = model_.with_effects(self._model, self._records)
+        self._use(model_.with_effects(self._model, self._records))
         self._balls[:] = [restored(state['balls'][name]) for name in self.names]
         self.time, self._now, self._events = float(state['time']), float(state['clock']), []
         self._forget_tree()

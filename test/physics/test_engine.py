@@ -15,6 +15,7 @@
 """Two engines for the same physics: plain Python at once, compiled code where play needs it."""
 
 from collections import Counter
+from copy import deepcopy
 import importlib.util
 import json
 import os
@@ -207,6 +208,34 @@ def test_a_world_goes_on_with_the_other_engine_in_mid_flight():
         world.advance(60.0)
         ends.append(world['ball'].position)
     np.testing.assert_allclose(ends[1:], ends[:1] * 2, rtol=1e-9)
+
+
+@needs_numba
+def test_a_copy_of_a_world_shares_no_ball_with_it():
+    world = World(load_course(COURSES[0]), engine='compiled')
+    world.strike('ball', *DRIVE)
+    world.advance(1.0)
+    copied = deepcopy(world)
+    world.advance(1.0)
+    after_one, after_two = copied['ball'].position, world['ball'].position
+    del world
+    copied.advance(1.0)
+    assert after_one != after_two == copied['ball'].position
+
+
+@needs_numba
+def test_a_record_that_is_changed_is_packed_anew():
+    ends = []
+    for kind in ('python', 'compiled'):
+        world = World(load_course(COURSES[0]), engine=kind)
+        world.strike('ball', *DRIVE)
+        for wind in ((0.0, 5.0, 0.0), (0.0, -3.0, 0.0), (0.0, 0.0, 0.0)):
+            world.advance(1.0)
+            world.set_wind(wind)
+        world.accuracy = 'sketch'
+        world.advance(60.0)
+        ends.append(world['ball'].position)
+    np.testing.assert_allclose(*ends, rtol=1e-9)
 
 
 # The child that compiles

@@ -27,6 +27,8 @@ import os
 from time import thread_time
 from typing import Any, Callable, NamedTuple, Optional
 
+import numpy as np
+
 from .event_loop import advance
 from .orientation import turn_orientations
 from .planner import put_down
@@ -43,16 +45,27 @@ LOG = logging.getLogger('golf_sim_ros')
 
 
 class Engine(NamedTuple):
-    """Entries of the physics, and whether effects that are off are kept as dormant records."""
+    """Entries of the physics, and whether effects that are off are kept as dormant records.
+
+    `pack` makes of a record what `advance` takes in its place, at less cost a call.
+    """
 
     name: str
     advance: Callable[..., int]
     turn: Callable[..., None]
     put_down: Callable[..., tuple[bool, float, bool]]
+    pack: Callable[[Any], Any]
     keeps_dormant: bool
 
 
-PYTHON = Engine('python', advance, turn_orientations, put_down, False)
+def as_it_is(record: Any) -> Any:
+    """`record` itself."""
+    return record
+
+
+PYTHON = Engine(
+    'python', np.errstate(all='ignore')(advance), turn_orientations, put_down, as_it_is, False
+)
 
 
 @lru_cache(maxsize=None)
@@ -63,6 +76,7 @@ def compiled_engine() -> Engine:
         jit.compiled(advance),
         jit.compiled(turn_orientations),
         jit.compiled(put_down),
+        jit.packed,
         True,
     )
 

@@ -122,6 +122,11 @@ def declare_generic(generic: GenericKernel[..., Any]) -> None:
     overload(generic, jit_options=options, strict=False)(scope[choose])
 
 
+def packed(record: Any) -> reference.Handle:
+    """`reference.Handle` of a named tuple, with a compiled `reference.pack`."""
+    return reference.Handle(record, dispatcher(reference.pack))
+
+
 def stand_for(function: Callable[..., Any], intrinsic: Any) -> None:
     """Make compiled kernels use an `intrinsic` where they call a plain `function`."""
     infer_global(function, cpu_target.typing_context.resolve_value_type(intrinsic))

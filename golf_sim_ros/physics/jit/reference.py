@@ -15,14 +15,19 @@
 """Intrinsics of kernels without an equivalent in Python: references to records, and cycles."""
 
 import platform
-from typing import Any
+from typing import Any, Callable
 
 from llvmlite import ir
+import numba
+from numba._dispatcher import compute_fingerprint
 from numba.core import cgutils, types
 from numba.core.datamodel import models
 from numba.core.imputils import lower_getattr_generic
 from numba.core.typing.templates import AttributeTemplate, infer_getattr
-from numba.extending import intrinsic, register_model
+from numba.extending import intrinsic, NativeValue, register_model, typeof_impl, unbox
+import numpy as np
+
+from . import entry
 
 
 class _Reference(types.Type):
@@ -102,9 +107,12 @@ def borrowed(typing: Any, record: Any) -> Any:
     def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         if isinstance(record, types.Array):
             return _view(context, builder, record, args[0])
+        if isinstance(record, _Reference):
+            return args[0]
         return cgutils.alloca_once_value(builder, args[0])
 
-    return (record if isinstance(record, types.Array) else _Reference(record))(record), build
+    kept = isinstance(record, (types.Array, _Reference))
+    return (record if kept else _Reference(record))(record), build
 
 
 @intrinsic
@@ -119,3 +127,65 @@ def cycles(typing: Any) -> Any:
         return builder.call(cgutils.get_or_insert_function(builder.module, counter, name), ())
 
     return types.int64(), build
+
+
+@intrinsic
+def written(typing: Any, record: Any, memory: Any) -> Any:
+    """Write a record into bytes, if they are enough, and return how many it takes."""
+
+    def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        value, array = args
+        size = context.get_abi_sizeof(value.type)
+        room = context.make_array(memory)(context, builder, array)
+        with builder.if_then(builder.icmp_signed('>=', room.nitems, room.nitems.type(size))):
+            builder.store(value, builder.bitcast(room.data, value.type.as_pointer()))
+        return context.get_constant(types.intp, size)
+
+    return types.intp(record, memory), build
+
+
+@entry
+def pack(record: Any, memory: np.ndarray) -> int:
+    """Write a record into bytes, if they are enough, and return how many it takes."""
+    return written(record, memory)
+
+
+class Handle:
+    """Record in memory of its own, for entries that borrow it: see `jit.packed`.
+
+    Parameters
+    ----------
+    record : named tuple
+    pack : callable
+        Compiled `pack`.
+    """
+
+    types: dict[bytes, _Reference] = {}  # by fingerprint, for numba takes milliseconds to find one
+
+    def __init__(self, record: Any, pack: Callable[[Any, np.ndarray], int]) -> None:
+        self.record, self.pack = record, pack
+        self.memory = np.empty(pack(record, np.empty(0, np.uint8)), np.uint8)
+        pack(record, self.memory)
+        self.address = self.memory.ctypes.data
+        fingerprint = compute_fingerprint(record)
+        if fingerprint not in self.types:
+            self.types[fingerprint] = _Reference(numba.typeof(record))
+        self.type = self.types[fingerprint]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Make a copy of the record that is copied: the memory points to the arrays of this one."""
+        return Handle, (self.record, self.pack)
+
+
+@typeof_impl.register(Handle)
+def _typeof(handle: Handle, context: Any) -> _Reference:
+    return handle.type
+
+
+@unbox(_Reference)
+def _unbox(reference: _Reference, handle: Any, context: Any) -> Any:
+    address = context.pyapi.object_getattr_string(handle, 'address')
+    pointer = context.pyapi.long_as_voidptr(address)
+    context.pyapi.decref(address)
+    kind = context.context.get_value_type(reference)
+    return NativeValue(context.builder.bitcast(pointer, kind))
