@@ -19,6 +19,7 @@ from importlib import import_module
 from importlib.util import find_spec
 import os
 from pathlib import Path
+import re
 import subprocess
 import sys
 
@@ -72,6 +73,13 @@ def test_what_is_not_a_node_imports_where_ros_is_not_installed(module, missing):
 def test_the_backend_alone_imports_numba():
     knowing = {path.parent.name for path in PHYSICS if {'numba', 'llvmlite'} & imported(path)}
     assert knowing == {'jit'}
+
+
+def test_one_module_knows_the_private_parts_of_numba():
+    private = re.compile(r'^\s*(?:from|import) numba(?:\.core|\._| import _)', re.MULTILINE)
+    everywhere = (ROOT / 'golf_sim_ros').rglob('*.py')
+    knowing = {path.name for path in everywhere if private.search(path.read_text('utf-8'))}
+    assert knowing == {'internals.py'}
 
 
 def test_the_physics_plays_a_shot_without_importing_numba():

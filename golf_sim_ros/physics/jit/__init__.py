@@ -21,7 +21,8 @@ runs Python. `compiled` gives the machine code of an entry. So both engines live
 and nothing here imports numba before `compiled` is called:
 
 =============  =========================================================================
-`backend`      compiles; with `linking` and `reference` the only modules that know numba
+`backend`      compiles, with `linking`, `reference`, `kept` and `progress`
+`internals`    what these take of numba that it does not promise to keep
 `cache`        where compiled code is kept, and whether it can be trusted
 `build`        compiles in a child process, which keeps the compiler's memory to itself
 =============  =========================================================================

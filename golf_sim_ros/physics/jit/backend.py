@@ -38,10 +38,9 @@ if os.environ.get('NUMBA_DISABLE_JIT', '0') not in ('', '0'):
     raise Unavailable('NUMBA_DISABLE_JIT is set')
 try:
     import numba
-    from numba.core.registry import cpu_target
-    from numba.core.types import Dispatcher
-    from numba.core.typing.templates import infer_global
     from numba.extending import overload
+
+    from .internals import cpu_target, infer_global, types
 except ImportError as error:  # also a numba that does not work with this numpy
     raise Unavailable(' '.join(str(error).split())) from None
 
@@ -77,7 +76,7 @@ def declare() -> None:
         if function not in DISPATCHERS:
             DISPATCHERS[function] = made = new_dispatcher(function, role)
             unroll(function)
-            infer_global(function, Dispatcher(made))
+            infer_global(function, types.Dispatcher(made))
     for generic in GENERICS:
         for function in (generic.default, *generic.cases.values()):
             unroll(function)

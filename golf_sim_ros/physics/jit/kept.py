@@ -17,15 +17,13 @@
 numba numbers the files of a function without a lock: two processes that save code for different
 types at the same time may end with the one's code under the other's name, and loading that
 crashes. And it ignores a read-only folder, as in an image built as root and run by others.
-Internals of numba, the same in versions 0.56 to 0.68.
 """
 
 from contextlib import contextmanager
 from typing import Any, Iterator
 
-from numba.core import caching
-
 from . import cache
+from .internals import caching
 
 LOCATOR: Any = (
     getattr(caching, 'UserProvidedCacheLocator', None) or caching._UserProvidedCacheLocator

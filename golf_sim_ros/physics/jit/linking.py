@@ -14,27 +14,14 @@
 
 """Linking of inner kernels as unoptimised drafts, which are optimised once, in the entry.
 
-By internals of numba, which would optimise at every level of calls, with all that is called below.
-The internals used here are known in the versions of `KNOWN`; with others kernels are compiled the
-ordinary way.
+By `internals` of numba, which would optimise at every level of calls, with all that is called
+below. Where they are not known, kernels are compiled the ordinary way.
 """
 
-import os
 from typing import Any
 
-import numba
-from numba.core import types
-from numba.core.compiler import Compiler
-from numba.core.registry import CPUDispatcher
-
-KNOWN = (0, 59), (0, 69)  # versions from the first to before the second, each tried
-VERSION = tuple(int(part) for part in numba.__version__.split('.')[:2])
-ORDINARY = 'GOLF_SIM_ROS_ORDINARY_LINKING'  # set: numba's own way, whatever the version
-
-
-def is_known() -> bool:
-    """Whether the internals of this numba are known."""
-    return KNOWN[0] <= VERSION < KNOWN[1] and not os.environ.get(ORDINARY)
+from . import internals
+from .internals import Compiler, CPUDispatcher, is_known, types
 
 
 def options(apart: bool) -> dict[str, Any]:
@@ -67,10 +54,8 @@ class _Inner(CPUDispatcher):
 
 
 if is_known():
-    from numba import _dynfunc
-    from numba.core.codegen import JITCodeLibrary
 
-    class _Draft(JITCodeLibrary):
+    class _Draft(internals.JITCodeLibrary):
         """Code that is only linked into other code.
 
         It is optimised and made machine code there, once.
@@ -115,4 +100,6 @@ if is_known():
     def _nothing_to_execute(library: Any, fndesc: Any, env: Any) -> Any:
         library._ensure_finalized()
         name = fndesc.qualname.split('.')[-1]
-        return _dynfunc.make_function(fndesc.lookup_module(), name, '', 0, env, (library,))
+        return internals._dynfunc.make_function(
+            fndesc.lookup_module(), name, '', 0, env, (library,)
+        )

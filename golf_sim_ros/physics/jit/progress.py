@@ -17,7 +17,7 @@
 from contextlib import contextmanager
 from typing import Any, Iterator, TextIO
 
-from numba.core import event
+from .internals import event
 
 # Functions of a first program, and of one more; each takes about as long.
 FUNCTIONS, MORE = 520, 90

@@ -19,15 +19,19 @@ from typing import Any, Callable
 
 from llvmlite import ir
 import numba
-from numba._dispatcher import compute_fingerprint
-from numba.core import cgutils, types
-from numba.core.datamodel import models
-from numba.core.imputils import lower_getattr_generic
-from numba.core.typing.templates import AttributeTemplate, infer_getattr
 from numba.extending import intrinsic, NativeValue, register_model, typeof_impl, unbox
 import numpy as np
 
 from . import entry
+from .internals import (
+    AttributeTemplate,
+    cgutils,
+    compute_fingerprint,
+    infer_getattr,
+    lower_getattr_generic,
+    models,
+    types,
+)
 
 
 class _Reference(types.Type):
@@ -173,7 +177,7 @@ class Handle:
         self.type = self.types[fingerprint]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Make a copy of the record that is copied: the memory points to the arrays of this one."""
+        """Pack the copied record: the memory points to the arrays of this one."""
         return Handle, (self.record, self.pack)
 
 
