@@ -40,7 +40,7 @@ def atlas(directions=8, disturbed=0.0):
     ratios[..., 1] = np.sin(angles)[:, None, None, None]
     ratios[..., 3] = 0.15
     ratios += disturbed * np.random.default_rng(1).standard_normal(ratios.shape)
-    rough = np.full((6, 5), 1.0 / ROUGHNESS)
+    rough = np.full((6, 5), -np.log(ROUGHNESS))
     return WindAtlas(
         angles,
         ratios.astype(np.float32),
