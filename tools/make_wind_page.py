@@ -52,7 +52,7 @@ field** is the steady wind over one course, solved for beforehand from the Navie
 in several directions; live gusts scale it and turn it. **Turbulence** is a box of eddies that it
 carries along. Either works without the other.
 
-![wind over links](wind_links.png)
+![wind over links](wind_links.webp)
 
 ## To have one
 
@@ -137,7 +137,7 @@ the ground, times the ratio that was solved for: quadratic splines, so that the 
 gradient are continuous, and the wall law below the lowest cell. Between two directions the wind
 is the sum of both, weighted so that as vectors they make it.
 
-![wind over tall pines](wind_tall_pines.png)
+![wind over tall pines](wind_tall_pines.webp)
 
 ## Turbulence
 
@@ -167,7 +167,7 @@ def main():
     for name, angle in PICTURES.items():
         path = shipped_courses()[name].with_name(f'{name}_wind.npz')
         field, course = WindField.load(path), load_course(name)
-        draw_field(DOCS / f'wind_{name}.png', field, course, angle)
+        draw_field(DOCS / f'wind_{name}.webp', field, course, angle)
     text = PAGE.format(
         accuracy=accuracy(),
         verification=table_of_verification(),
