@@ -150,6 +150,13 @@ def test_between_two_directions_their_vectors_make_the_wind(directions):
         assert first >= -1e-12 and second >= -1e-12
 
 
+@pytest.mark.parametrize('angles', [[4.0, 5.0, 6.0], [3.5, 5.0], [0.1, 2.0, 6.2]])
+def test_uneven_directions_have_the_wind_between_them(angles):
+    for angle in np.linspace(-7.0, 7.0, 57):
+        _, _, first, second = directions_beside(np.array(angles), (cos(angle), sin(angle), 0.0))
+        assert first >= -1e-12 and second >= -1e-12
+
+
 @pytest.mark.parametrize('angles', [[0.5], [0.0, pi]])
 def test_with_few_directions_the_speed_is_shared(angles):
     for angle in np.linspace(0.0, 2.0 * pi, 13):
