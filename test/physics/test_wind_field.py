@@ -88,6 +88,23 @@ def test_over_level_ground_a_drive_lands_as_in_the_logarithmic_law(wind):
     assert by_field.carry_side == pytest.approx(by_law.carry_side, abs=1e-3)
 
 
+@pytest.mark.parametrize('turbulence', [0.0, (0.145, 2)])
+def test_a_putt_is_moved_by_its_gusts_as_by_those_of_the_law(turbulence):
+    speed, radius = 2.0, 0.021335
+    shot = Shot((speed, 0.0, 0.0), (0.0, speed / radius, 0.0))
+    gusts = [(0.0, 0.0, 9.0, 0.0), (0.7, 3.0, 12.0, 0.0), (1.6, -4.0, 10.0, 0.0)]
+    by_field, by_law = (
+        simulate(played, shot, wind=gusts, turbulence=turbulence, engine='python').result
+        for played in (course(atlas()), course())
+    )
+    still = simulate(course(), shot, engine='python').result
+    assert by_law.side - still.side > 0.005
+    if turbulence:  # whose strength is that of the field, here nearly the same
+        assert by_field.side - still.side > 0.005
+    else:
+        assert by_field.position == pytest.approx(by_law.position, abs=1e-5)
+
+
 def test_it_is_what_the_field_says_at_every_place():
     played = load_course('tall_pines')
     field = WindField.load(share('config', 'courses', 'tall_pines_wind.npz'))
