@@ -119,5 +119,5 @@ def take_out(name, package):
 def makes_effect(node):
     """Whether a segment of a file makes it an effect: `record`, or the body of a law."""
     return isinstance(node, ast.FunctionDef) and (
-        node.name == 'record' or any('laws.' in ast.unparse(d) for d in node.decorator_list)
+        node.name == 'record' or any('.register(' in ast.unparse(d) for d in node.decorator_list)
     )

@@ -157,7 +157,7 @@ def several_balls(player):
 
 
 def gusts(player):
-    """Two shots in a wind that changes ten times a second."""
+    """Two shots in a wind that changes ten times a second, of a field, and in its turbulence."""
     chance, due = random.Random(1), [0.0]
 
     def blow():
@@ -206,7 +206,11 @@ def pile(player):
 KINDS = {  # play, course, balls, more parameters
     one_ball: ('golf_without_friends', ['ball'], {}),
     several_balls: ('playground', ['red', 'green', 'blue'], {}),
-    gusts: ('links', ['ball'], {'real_time_factor': 1.0}),
+    gusts: (
+        'links',
+        ['ball'],
+        {'real_time_factor': 1.0, 'turbulence': 0.145, 'turbulence_seed': 7},
+    ),
     water_and_out_of_bounds: ('playground', ['ball'], {}),
     pile: ('test/data/bags/pit.yaml', ['a', 'b', 'c', 'd', 'e'], {}),
 }

@@ -138,6 +138,7 @@ def solved_for(options: argparse.Namespace) -> tuple[WindField, Course]:
     nx, ny, nz = case.grid.shape
     say(f'{course.name}: {nx} x {ny} x {nz} cells of {case.grid.metric.dx.min():.1f} m')
     angles = solving.angles_of(options.directions)
+    solving.check_size(case, len(angles))
     kept = Unfinished(options.output, f'{land_digest(course)} {case.level}')
     kept.solved = {angle: kept.solved[angle] for angle in angles if angle in kept.solved}
     if kept.solved:

@@ -14,17 +14,20 @@
 
 """A wind field: how fast the air is, a section along the hole, and how it was solved for."""
 
-from math import atan2, degrees
+from math import atan2, degrees, pi
 import os
 from typing import Any
 
+from matplotlib import colormaps
 from matplotlib.axes import Axes
+from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
+from matplotlib.patches import Circle
 import numpy as np
 
-from .style import bare, GRID, INK, PALE, SMALL, TITLE
-from ..physics import Course
+from .style import bare, GRID, INK, PALE, SMALL, TEXT
+from ..physics import Course, Sphere
 from ..wind import WindField
 
 HEIGHTS = 2.0, 10.0  # m over the ground
@@ -33,8 +36,13 @@ ARROWS = 26  # along x
 TALL = 60.0  # m, of the section
 COLORS = 'RdBu_r'
 RANGE = (0.4, 1.6)  # of the speed over that far upstream
-WIDTH = 12.0  # inches
-LEAST_ASPECT = 0.3
+CONTOUR = 1.0  # m, or more where that would be many
+MOST_CONTOURS = 12
+TREES = '#1f7a3a'
+WIDTH = 10.0  # inches
+SECTION, RESIDUALS = 1.9, 1.5  # inches high
+MARGIN = 0.75  # inches, of titles and labels, of each row
+WIDE = 0.5  # height over width of land, below which maps are one above the other
 
 
 def draw_field(
@@ -45,7 +53,7 @@ def draw_field(
     Parameters
     ----------
     path : str or path
-        .png, .svg or .pdf
+        .png, .webp, .svg or .pdf
     field : golf_sim_ros.wind.WindField
     course : golf_sim_ros.physics.Course
     angle : float, optional
@@ -54,27 +62,29 @@ def draw_field(
     """
     angle = nearest_to_hole(field, course) if angle is None else angle
     x, y = field.survey.x, field.survey.y
-    aspect = max(np.ptp(y) / np.ptp(x), LEAST_ASPECT)
-    figure = Figure(figsize=(WIDTH, 3.5 + WIDTH * aspect), layout='constrained')
-    rows = figure.subplots(3, 2, height_ratios=(1.0 * aspect, 0.15, 0.15), width_ratios=(1, 1))
-    for axes in rows[2]:
-        axes.remove()
+    aspect = np.ptp(y) / np.ptp(x)
+    beside = 1 if aspect < WIDE else 2
+    tall = min(0.92 * WIDTH / beside * aspect, WIDTH)
+    heights = [tall] * (2 // beside) + [SECTION, RESIDUALS]
+    figure = Figure((WIDTH, sum(heights) + MARGIN * len(heights)), layout='constrained')
+    grid = figure.add_gridspec(len(heights), beside, height_ratios=heights)
+    maps = [figure.add_subplot(place) for place in list(grid)[:2]]
+    for axes, height in zip(maps, HEIGHTS):
+        shown = speed_map(axes, field, course, angle, height)
+    bar = figure.colorbar(shown, ax=maps, shrink=0.9, pad=0.01, aspect=30)
+    bar.ax.tick_params(labelsize=SMALL, colors=PALE, length=2.5)
+    bar.outline.set_edgecolor(GRID)
     figure.suptitle(
-        f'{course.name}: wind into {degrees(angle):.0f} degrees, over that far upstream',
-        fontsize=TITLE,
+        f'{course.name}: wind into {degrees(angle):.0f} degrees; colours: its speed over that at '
+        'this height far upstream',
+        fontsize=TEXT + 2.0,
         color=INK,
         x=0.01,
         ha='left',
     )
-    for axes, height in zip(rows[0], HEIGHTS):
-        shown = speed_map(axes, field, course, angle, height)
-    figure.colorbar(shown, ax=rows[0].tolist(), shrink=0.8, pad=0.01)
-    grid = rows[1, 0].get_gridspec()
-    for axes in rows[1]:
-        axes.remove()
-    section(figure.add_subplot(grid[1, :]), field, course, angle)
-    residuals(figure.add_subplot(grid[2, :]), field)
-    figure.savefig(path, dpi=130)
+    section(figure.add_subplot(grid[-2, :]), field, course, angle)
+    residuals(figure.add_subplot(grid[-1, :]), field)
+    figure.savefig(path, dpi=110)
 
 
 def nearest_to_hole(field: WindField, course: Course) -> float:
@@ -113,16 +123,31 @@ def speed_map(
         vmax=RANGE[1],
         interpolation='bilinear',
     )
-    axes.contour(x, y, ground.reshape(len(y), len(x)), levels=8, colors=PALE, linewidths=0.4)
+    step = max(CONTOUR, np.ceil(np.ptp(ground) / MOST_CONTOURS))
+    levels = np.arange(np.floor(ground.min()), ground.max() + step, step)
+    axes.contour(
+        x, y, ground.reshape(len(y), len(x)), levels=levels, colors=PALE, linewidths=0.4, alpha=0.6
+    )
+    axes.add_collection(crowns(course))
     every = max(1, len(x) // ARROWS)
     picked = slice(every // 2, None, every)
     u, v = (air[:, n].reshape(len(y), len(x))[picked, picked] for n in (0, 1))
-    axes.quiver(x[picked], y[picked], u, v, color=INK, width=0.002, scale=1.6 * ARROWS)
+    axes.quiver(x[picked], y[picked], u, v, color=INK, width=0.0016, scale=1.3 * ARROWS)
     axes.plot(*course.tee, 'o', color=INK, markersize=3)
     if course.hole:
         axes.plot(*course.hole, '^', color=INK, markersize=4)
     bare(axes, f'at {height:g} m', 'x [m]', 'y [m]')
     return shown
+
+
+def crowns(course: Course) -> PatchCollection:
+    """Outlines in plan of what brakes the wind."""
+    trees = [solid for solid in course.obstacles if solid.material.canopy_drag > 0.0]
+    rings = [
+        Circle((tree.center if isinstance(tree, Sphere) else tree.base)[:2], tree.radius)
+        for tree in trees
+    ]
+    return PatchCollection(rings, facecolor='none', edgecolor=TREES, linewidth=0.9)
 
 
 def section(axes: Axes, field: WindField, course: Course, angle: float) -> None:
@@ -157,8 +182,13 @@ def residuals(axes: Axes, field: WindField) -> None:
     for angle, row in zip(field.angles, field.cells.residuals):
         row = row[row > 0.0]
         axes.semilogy(
-            np.arange(1, len(row) + 1), row, linewidth=0.8, label=f'{degrees(angle):.0f}'
+            np.arange(1, len(row) + 1),
+            row,
+            color=colormaps['twilight_shifted'](angle / (2.0 * pi)),
+            linewidth=1.0,
         )
-    bare(axes, 'change of the flow in a step', 'step', 'of the wind')
+    title = f'change of the flow in a step, of the wind: {len(field.angles)} directions'
+    bare(axes, title, 'step')
     axes.grid(color=GRID, linewidth=0.6)
-    axes.tick_params(labelsize=SMALL)
+    axes.set_xlim(left=0.0)
+    axes.tick_params(axis='y', which='minor', length=0.0)

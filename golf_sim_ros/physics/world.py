@@ -24,7 +24,7 @@ import numpy as np
 from . import placement, reporting
 from .collision.workspace import INVOLVED, new_workspace, TREE_AGE
 from .effects import choose, EffectNames, Scene, set_drift
-from .effects.turbulence import drifted
+from .effects.turbulence import drifted, NONE
 from .engine.engines import checked_engine, compiled_engine, Program, PYTHON
 from .engine.event_loop import LOG_FULL, STAGES
 from .jit.build import Build, Part
@@ -344,7 +344,7 @@ class World:
 
     def _carry(self, now: float) -> None:
         """Let the wind carry its turbulence up to now, which is `now` on the clock from here."""
-        intensity, seed, *before = self._live['turbulence']
+        intensity, seed, *before = self._live.get('turbulence', NONE)
         if intensity == 0.0:
             return
         drift, wind = np.array(before), np.array(self._live['wind'])

@@ -35,6 +35,12 @@ Triple = tuple[np.ndarray, np.ndarray, np.ndarray]
 FORMAT = 1
 STEP = 2e-3  # of what is kept in whole numbers: of the local wind
 MOST = 30.0  # times the logarithmic law: no field has more
+MOST_NUMBERS = 2**27  # of ratios: a hundred directions at `reference`
+MOST_BYTES = 5 * MOST_NUMBERS  # of all arrays, unpacked
+NAMES = (
+    *('format', 'ratios', 'roughness', 'residuals', 'angles', 'plan', 'heights'),
+    *('ground_x', 'ground_y', 'ground', 'ground_roughness', 'digest', 'accuracy'),
+)
 
 
 class Cells(NamedTuple):
@@ -76,7 +82,7 @@ class WindField:
     ) -> None:
         self.cells, self.survey, self.digest, self.accuracy = cells, survey, digest, accuracy
         self.atlas = atlas._replace(
-            ratios=coefficients(cells.ratios), roughness=1.0 / cells.roughness
+            ratios=coefficients(cells.ratios), roughness=-np.log(cells.roughness)
         )
 
     @property
@@ -125,14 +131,14 @@ class WindField:
             )
         ]
         up = spline(levels, now.shape[2])
-        ratio, inverse = np.zeros((len(points), 3)), np.zeros(len(points))
+        ratio, smooth = np.zeros((len(points), 3)), np.zeros(len(points))
         for i, a in zip(*plan[0]):
             for j, b in zip(*plan[1]):
-                inverse = inverse + a * b * atlas.roughness[i, j]
+                smooth = smooth + a * b * atlas.roughness[i, j]
                 for k, c in zip(*up):
                     ratio = ratio + (a * b * c)[:, None] * now[i, j, k, :3]
         ratio[:, 2] += wind[2]
-        return (layout.weight * np.log(1.0 + above * inverse))[:, None] * ratio
+        return (layout.weight * np.log(1.0 + above * np.exp(smooth)))[:, None] * ratio
 
     def save(self, path: str | os.PathLike, compact: bool = False) -> None:
         """Save as a .npz file, which `load` reads.
@@ -188,8 +194,8 @@ class WindField:
     def read(cls, raw: bytes) -> 'WindField':
         """Return the field in the bytes of a file that `save` wrote; else raise `FieldError`."""
         try:
-            with np.load(BytesIO(raw), allow_pickle=False) as content:
-                return cls._of({name: content[name] for name in content.files})
+            with ZipFile(BytesIO(raw)) as archive:
+                return cls._of(unpacked(archive))
         except FieldError:
             raise
         except Exception as error:  # zip, compression and numpy raise a dozen kinds of their own
@@ -202,8 +208,10 @@ class WindField:
         if number is None or number.shape or number != FORMAT:
             raise FieldError(f'is no wind field of format {FORMAT}')
         ratios = content['ratios']
+        if ratios.size > MOST_NUMBERS:
+            raise FieldError(f'ratios are too many: {ratios.size}')
         if ratios.dtype == np.int16 and ratios.ndim == 5:
-            ratios = STEP * summed(ratios)
+            ratios = np.array([(STEP * one).astype(np.float32) for one in summed(ratios)])
         if ratios.dtype.kind != 'f' or ratios.ndim != 5 or ratios.shape[-1] != 4:
             raise FieldError(f'ratios have the type {ratios.dtype} and the shape {ratios.shape}')
         n, nx, ny, _, _ = ratios.shape
@@ -247,6 +255,20 @@ class WindField:
         return cls(cells, atlas, survey, str(content['digest']), str(content['accuracy']))
 
 
+def unpacked(archive: ZipFile) -> dict[str, np.ndarray]:
+    """Arrays of an `archive`, by name; `FieldError` where they say that they are too large."""
+    members = {info.filename: info for info in archive.infolist()}
+    found = {name: members[f'{name}.npy'] for name in NAMES if f'{name}.npy' in members}
+    size = sum(info.file_size for info in found.values())
+    if size > MOST_BYTES:
+        raise FieldError(f'is no wind field: unpacked it has {size} bytes')
+    content = {}
+    for name, info in found.items():
+        with archive.open(info) as file:
+            content[name] = np.lib.format.read_array(file, allow_pickle=False)
+    return content
+
+
 def differences(ratios: np.ndarray) -> np.ndarray:
     """Differences along x and zeta of whole numbers (n, nx, ny, nz, 4), the components first.
 
@@ -288,8 +310,8 @@ def check_axes(numbers: dict[str, np.ndarray]) -> None:
     lengths = (first, growth, top, upstream, *numbers['plan'][1], numbers['roughness'].min())
     if min(lengths) <= 0.0 or growth > 5.0:
         raise FieldError('a length is not over 0')
-    if abs(numbers['angles']).max() > 2.0 * np.pi:
-        raise FieldError('an angle is over a whole turn')
+    if numbers['angles'][0] < 0.0 or numbers['angles'][-1] >= 2.0 * np.pi:
+        raise FieldError('an angle is not from 0 to below a whole turn')
 
 
 def coefficients(values: np.ndarray) -> np.ndarray:
@@ -297,12 +319,15 @@ def coefficients(values: np.ndarray) -> np.ndarray:
 
     At the ends they are mirrored, as the effect reads them.
     """
-    found = np.array(values, float)
-    for axis in (1, 2, 3):
-        along = np.moveaxis(found, axis, 0)
-        if len(along) > 1:
-            eliminate(along)
-    return found.astype(np.float32)
+    found = np.empty(values.shape, np.float32)
+    for one, given in zip(found, values):
+        solved = np.array(given, float)
+        for axis in (0, 1, 2):
+            along = np.moveaxis(solved, axis, 0)
+            if len(along) > 1:
+                eliminate(along)
+        one[:] = solved
+    return found
 
 
 def eliminate(values: np.ndarray) -> None:

@@ -23,7 +23,7 @@ import numpy as np
 
 from .accuracy import Level, level_of
 from .boundary_conditions import Inflow, sponge_rates
-from .field import Cells, WindField
+from .field import Cells, MOST_NUMBERS, WindField
 from .foliage import canopy_drag, tallest
 from .grid import Grid, layers, with_buffer
 from .land_survey import Box, land_box, land_digest, smoothed, Survey, survey
@@ -88,6 +88,7 @@ def solve(
     """
     angles = angles_of(directions)
     case = case_of(course, level_of(accuracy))
+    check_size(case, len(angles))
     solved = [
         solve_direction(case, angle, progress and partial(progress, number))
         for number, angle in enumerate(angles)
@@ -110,6 +111,14 @@ def angles_of(directions: int | Sequence[float]) -> list[float]:
     if angles.ndim != 1 or not len(angles) or not np.isfinite(angles).all():
         raise ValueError('directions must be a number, or one or more finite angles')
     return sorted(set((angles % (2.0 * pi) % (2.0 * pi)).tolist()))
+
+
+def check_size(case: Case, directions: int) -> None:
+    """Check that a field of so many directions is not too large to be loaded; else ValueError."""
+    i, j, k = (part.stop - part.start for part in case.core)
+    if 4 * i * j * k * directions > MOST_NUMBERS:
+        most = MOST_NUMBERS // (4 * i * j * k)
+        raise ValueError(f'{directions} directions are too many for {i} x {j} x {k} cells: {most}')
 
 
 def case_of(course: Course, level: Level) -> Case:
@@ -190,15 +199,14 @@ def solve_direction(
 
 
 def read_roughness(case: Case) -> np.ndarray:
-    """Roughness length [m] that is read in flight: over the land a spline of 1 / z0."""
-    inverse = 1.0 / case.land.roughness
-    core = inverse[case.core[:2]]
-    around = np.pad(core, 1, mode='reflect')
+    """Roughness length [m] that is read in flight: over the land a spline of its logarithm."""
+    logarithm = np.log(case.land.roughness)
+    around = np.pad(logarithm[case.core[:2]], 1, mode='reflect')
     for axis in (0, 1):
         along = around.swapaxes(0, axis)
         around = (0.125 * along[:-2] + 0.75 * along[1:-1] + 0.125 * along[2:]).swapaxes(0, axis)
-    inverse[case.core[:2]] = around
-    return 1.0 / inverse
+    logarithm[case.core[:2]] = around
+    return np.exp(logarithm)
 
 
 def field_of(

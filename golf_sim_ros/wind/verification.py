@@ -238,14 +238,14 @@ def show_ridge(options: argparse.Namespace) -> None:
 
 def show_hill(options: argparse.Namespace) -> None:
     """Print the speed-up over round hills, on two grids."""
-    print('h/L  cell  z: ' + '  '.join(f'{z:6.0f} m' for z in HEIGHTS) + '  divergence')
+    print('h/L     cells, z:  ' + '  '.join(f'{z:6.0f} m' for z in HEIGHTS) + '  divergence')
     for steepness in (0.1, 0.3):
         for cell in (20.0, 10.0):
             found, expected, divergence = hill(steepness, cell)
             row = '  '.join(f'{value:8.4f}' for value in found)
-            print(f'{steepness:3}  {cell:4.0f}     {row}  {divergence:.1e}')
+            print(f'{steepness:3}  {f"{cell:.0f} m":>11}  {row}  {divergence:.1e}')
         row = '  '.join(f'{value:8.4f}' for value in expected)
-        print(f'{steepness:3}  Taylor, Lee {row[3:]}')
+        print(f'{steepness:3}  Taylor, Lee  {row}')
 
 
 def show_flat(options: argparse.Namespace) -> None:

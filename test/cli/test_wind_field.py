@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""The command wind_field: it solves, goes on where it was stopped, says what is wrong in a line."""
+"""The command wind_field: it solves, goes on where it stopped, says what is wrong in one line."""
 
 from golf_sim_ros.cli import wind_field
 from golf_sim_ros.course import load_course

@@ -52,6 +52,7 @@ TOPICS = {
 
 
 HASTY = {'real_time_factor': 0.0, 'publish_clock': 'true'}
+IN_A_FIELD = {'course': 'links', 'turbulence': 0.145, 'turbulence_seed': 3}
 
 
 def blow(winds, wind):
@@ -83,28 +84,31 @@ def play_in_gusts(golfer, poses):
 
 
 @pytest.mark.parametrize(
-    'storage, pace', [('mcap', {}), ('sqlite3', HASTY)], ids=['mcap', 'sqlite3, hasty']
+    'storage, more',
+    [('mcap', IN_A_FIELD), ('sqlite3', HASTY)],
+    ids=['mcap, wind field and turbulence', 'sqlite3, hasty'],
 )
 def test_three_shots_in_gusts_are_recorded_and_run_again_to_the_bit(
-    start, make_golfer, tmp_path, capsys, storage, pace
+    start, make_golfer, tmp_path, capsys, storage, more
 ):
+    hasty = more is HASTY
     path = tmp_path / 'bag'
     recorder = start(
         'cli.record_play', '-o', str(path), '--namespace', '/recorded', '--storage', storage
     )
-    sim = start('sim_node', *parameters('/recorded', **pace))
+    sim = start('sim_node', *parameters('/recorded', **more))
     sim.wait_for(READY)
     recorder.wait_for('recording ball')
     golfer = make_golfer('/recorded')
-    play_in_gusts(golfer, 1 if pace else 12)
+    play_in_gusts(golfer, 1 if hasty else 12)
     golfer.heartbeat()
     assert recorder.stop(signal.SIGTERM if storage == 'mcap' else signal.SIGINT) == 0
     assert sim.stop() == 0
     (recording,) = read_bag(path)
     gusts = [entry for entry in recording.journal if entry['kind'] == 'wind']
-    assert len(gusts) > (0 if pace else 3)
+    assert len(gusts) > (0 if hasty else 3)
     assert [entry['kind'] for entry in recording.journal].count('strike') == len(SHOTS)
-    assert topics(path) == TOPICS | ({'/clock'} if pace else set())
+    assert topics(path) == TOPICS | ({'/clock'} if hasty else set())
     assert len(recording.tracks['ball'].times) > 50 and len(recording.collisions) > 2
     assert main([str(path)]) == 0
     assert f'{len(SHOTS)} of {len(SHOTS)} identical' in capsys.readouterr().out

@@ -40,7 +40,7 @@ def atlas(directions=8, disturbed=0.0):
     ratios[..., 1] = np.sin(angles)[:, None, None, None]
     ratios[..., 3] = 0.15
     ratios += disturbed * np.random.default_rng(1).standard_normal(ratios.shape)
-    rough = np.full((6, 5), 1.0 / ROUGHNESS)
+    rough = np.full((6, 5), -np.log(ROUGHNESS))
     return WindAtlas(
         angles,
         ratios.astype(np.float32),
@@ -86,6 +86,23 @@ def test_over_level_ground_a_drive_lands_as_in_the_logarithmic_law(wind):
     by_law = drive(course(), wind, accuracy='reference', engine='python')
     assert by_field.carry == pytest.approx(by_law.carry, abs=1e-3)
     assert by_field.carry_side == pytest.approx(by_law.carry_side, abs=1e-3)
+
+
+@pytest.mark.parametrize('turbulence', [0.0, (0.145, 2)])
+def test_a_putt_is_moved_by_its_gusts_as_by_those_of_the_law(turbulence):
+    speed, radius = 2.0, 0.021335
+    shot = Shot((speed, 0.0, 0.0), (0.0, speed / radius, 0.0))
+    gusts = [(0.0, 0.0, 9.0, 0.0), (0.7, 3.0, 12.0, 0.0), (1.6, -4.0, 10.0, 0.0)]
+    by_field, by_law = (
+        simulate(played, shot, wind=gusts, turbulence=turbulence, engine='python').result
+        for played in (course(atlas()), course())
+    )
+    still = simulate(course(), shot, engine='python').result
+    assert by_law.side - still.side > 0.005
+    if turbulence:  # whose strength is that of the field, here nearly the same
+        assert by_field.side - still.side > 0.005
+    else:
+        assert by_field.position == pytest.approx(by_law.position, abs=1e-5)
 
 
 def test_it_is_what_the_field_says_at_every_place():
@@ -147,6 +164,13 @@ def test_between_two_directions_their_vectors_make_the_wind(directions):
         low, high, first, second = directions_beside(angles, wind)
         made = [first * f(angles[low]) + second * f(angles[high]) for f in (np.cos, np.sin)]
         assert made == pytest.approx(wind[:2], abs=1e-12)
+        assert first >= -1e-12 and second >= -1e-12
+
+
+@pytest.mark.parametrize('angles', [[4.0, 5.0, 6.0], [3.5, 5.0], [0.1, 2.0, 6.2]])
+def test_uneven_directions_have_the_wind_between_them(angles):
+    for angle in np.linspace(-7.0, 7.0, 57):
+        _, _, first, second = directions_beside(np.array(angles), (cos(angle), sin(angle), 0.0))
         assert first >= -1e-12 and second >= -1e-12
 
 

@@ -20,6 +20,7 @@ are those of the recording the bits are the same, elsewhere all agrees to 1e-9.
 
 from pathlib import Path
 
+from golf_sim_ros.course import load_course
 from golf_sim_ros.recording.bag import read_bag
 from golf_sim_ros.recording.journal import made_with
 from golf_sim_ros.recording.replay import difference, rerun, shots, tick_of, world_of
@@ -75,6 +76,15 @@ def test_each_shot_runs_again_as_it_was_recorded(kind, recording):
     for shot in found:
         assert shot.rest and shot.strike['engine'] == 'python'
         assert difference(recording, shot, rerun(world, shot, tick), exact=exact) is None
+
+
+def test_the_gusts_are_those_of_a_field_with_turbulence():
+    (recording,) = read_bag(BAGS / 'gusts')
+    assert load_course('links').wind_field is not None
+    assert recording.config['parameters']['turbulence'] > 0.0
+    assert sum(entry['kind'] == 'wind' for entry in recording.journal) > 20
+    drifts = [entry['turbulence'] for entry in recording.journal if entry['kind'] == 'strike']
+    assert len(drifts) == 2 and drifts[0][2:4] != drifts[1][2:4]
 
 
 def test_five_balls_lean_on_each_other():

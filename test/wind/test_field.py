@@ -16,6 +16,7 @@
 
 from io import BytesIO
 import pickle
+from zipfile import ZipFile
 
 from golf_sim_ros.physics import LogProfile, PowerProfile
 from golf_sim_ros.wind import FieldError, WindField
@@ -135,6 +136,7 @@ def with_changed(solved, tmp_path, **changes):
         ({'heights': np.full(5, np.inf)}, 'heights is not finite'),
         ({'ground_x': np.zeros(0)}, 'the shape'),
         ({'plan': np.zeros((2, 2))}, 'a length is not over 0'),
+        ({'angles': np.array([0.0, 1.0, 7.0])}, 'an angle is not from 0 to below a whole turn'),
     ],
 )
 def test_what_no_field_can_hold_is_refused_in_one_line(solved, tmp_path, changes, reason):
@@ -146,6 +148,36 @@ def test_ratios_that_are_not_finite_are_refused(solved, tmp_path):
     ratios = solved.cells.ratios.copy()
     ratios[0, 1, 1, 1, 0] = np.nan
     check_refused(with_changed(solved, tmp_path, ratios=ratios), 'not finite')
+
+
+@needs_numba
+@pytest.mark.parametrize('claimed', [(10**6, 10**4, 10**3, 20, 4), (2**14, 2**13), (2**40, 2**40)])
+def test_what_claims_to_be_huge_is_refused_without_room_for_it(solved, tmp_path, claimed):
+    path = tmp_path / 'wind.npz'
+    solved.save(path)
+    with ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    header = BytesIO()
+    claim = {'descr': '<f4', 'fortran_order': False, 'shape': claimed}
+    np.lib.format.write_array_header_1_0(header, claim)
+    members['ratios.npy'] = header.getvalue()
+    with ZipFile(path, 'w') as archive:
+        for name, content in members.items():
+            archive.writestr(name, content)
+    check_refused(path, 'is no wind field')
+
+
+@needs_numba
+def test_a_file_that_unpacks_to_more_than_any_field_is_refused_unread(
+    solved, tmp_path, monkeypatch
+):
+    from golf_sim_ros.wind import field
+
+    path = tmp_path / 'wind.npz'
+    solved.save(path)
+    monkeypatch.setattr(field, 'MOST_BYTES', solved.cells.ratios.nbytes)
+    monkeypatch.setattr(np.lib.format, 'read_array', None)
+    check_refused(path, 'unpacked it has [0-9]+ bytes')
 
 
 class Trap:

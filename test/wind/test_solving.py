@@ -19,7 +19,7 @@ from math import cos, pi, sin
 import subprocess
 import sys
 
-from golf_sim_ros.physics import Course, Plane, UniformProfile
+from golf_sim_ros.physics import Course, Plane, UniformProfile, Water
 from golf_sim_ros.wind import FieldError, NotConverged, solve
 import numpy as np
 import pytest
@@ -85,6 +85,27 @@ def test_the_wind_goes_where_it_is_said_to_go():
     for angle in np.linspace(0.0, 2.0 * pi, 13):
         wind = 5.0 * cos(angle), 5.0 * sin(angle), 0.0
         assert found.velocity([[50.0, 0.0, 10.0]], wind)[0] == pytest.approx(wind, abs=1e-5)
+
+
+def test_where_the_roughness_changes_the_wind_is_as_smooth_between_cells_as_at_them():
+    pond = Water(((30.0, -30.0), (90.0, -30.0), (90.0, 30.0), (30.0, 30.0)), level=0.01)
+    found = solve(level(0.03)._replace(water=(pond,)), [0.0], 'sketch')
+    start, step, count = found.atlas.origin[0], found.atlas.spacing[0], found.cells.ratios.shape[1]
+    cells, finer = start + step * np.arange(count), start + 0.1 * step * np.arange(10 * count - 9)
+    for height in (2.0, 10.0, 30.0):
+        at_cells, between = (
+            found.velocity([(x, 0.0, height) for x in places], (8.0, 0.0, 0.0))[:, 0]
+            for places in (cells, finer)
+        )
+        assert between == pytest.approx(np.interp(finer, cells, at_cells), rel=0.05)
+
+
+def test_more_directions_than_a_field_may_have_are_refused(monkeypatch):
+    from golf_sim_ros.wind import solving
+
+    monkeypatch.setattr(solving, 'MOST_NUMBERS', 100000)
+    with pytest.raises(ValueError, match='16 directions are too many for [0-9]+ x [0-9]+ x'):
+        solve(level(), 16, 'sketch')
 
 
 def test_progress_is_told_by_direction_step_and_change():

@@ -20,7 +20,7 @@ cell the ratio is constant: the wall law. Ratio and roughness are quadratic spli
 and its gradient are continuous.
 """
 
-from math import atan2, floor, log, pi, sin, sqrt
+from math import atan2, exp, floor, log, pi, sin, sqrt
 from typing import NamedTuple, Optional, Sequence
 
 import numpy as np
@@ -52,7 +52,7 @@ class WindAtlas(NamedTuple):
         Velocity over the logarithmic law of the local roughness, and the standard deviation of its
         turbulence along the wind over the wind at 10 m.
     roughness : ndarray, (nx, ny)
-        1 / z0 [1/m].
+        -ln z0, z0 [m].
     origin, spacing : (float, float)
         x, y of the first cell's middle, and from one to the next [m].
     first, growth : float
@@ -220,9 +220,8 @@ def wind_above(effect: WindField, position: Vector, above: float) -> Vector:
             upright(field, q, s, levels, up),
         ),
     )
-    share = layout.weight * log(
-        1.0 + max(above, 0.0) * smooth_map(effect.roughness, columns, rows)
-    )
+    over_roughness = max(above, 0.0) * exp(smooth_map(effect.roughness, columns, rows))
+    share = layout.weight * log(1.0 + over_roughness)
     return share * ratio[0], share * ratio[1], share * (ratio[2] + effect.velocity[2])
 
 
@@ -240,7 +239,7 @@ def _longest_step(
     if effect.velocity[0] == 0.0 and effect.velocity[1] == 0.0 and effect.velocity[2] == 0.0:
         return wanted
     # as in still profiles, and no farther than a cell
-    bending = max(from_ground(ground, flow.position), 0.0) + 1.0 / effect.roughness[0, 0]
+    bending = max(from_ground(ground, flow.position), 0.0) + exp(-effect.roughness[0, 0])
     u, v, w = flow.over_ground
     most = min(
         GROWTH * bending / max(abs(w), 1e-9), effect.layout.cell / max(sqrt(u * u + v * v), 1e-9)
@@ -261,7 +260,7 @@ def directions_beside(angles: np.ndarray, wind: Sequence[float]) -> tuple[int, i
         return 0, 0, speed, 0.0
     turn = 2.0 * pi
     angle = atan2(wind[1], wind[0])
-    if angle < angles[0]:
+    while angle < angles[0]:
         angle += turn
     low = count - 1
     while low > 0 and angles[low] > angle:
@@ -335,7 +334,7 @@ def still() -> WindAtlas:
     zeros = np.zeros((1, 1, 1, 1, 4), np.float32)
     wide = (1e9, 1e9)  # no step ends at a cell, or near the ground
     return WindAtlas(
-        np.zeros(1), zeros, np.full((1, 1), 1e-9), (0.0, 0.0), wide, 1.0, 1.0, 0.0, 1e3, 0.01
+        np.zeros(1), zeros, np.full((1, 1), -20.0), (0.0, 0.0), wide, 1.0, 1.0, 0.0, 1e3, 0.01
     )
 
 
