@@ -53,6 +53,10 @@ OTHER_COURSES = {
     'a power law': level(TURF, wind_profile=PowerProfile()),
     'gravity by name': level(TURF, effects=('gravity',)),
 }
+LEVEL_WIND = [  # courses without a wind field
+    *(course for course in map(load_course, COURSES) if not course.wind_field),
+    *OTHER_COURSES.values(),
+]
 ROOT = Path(__file__).parents[2]
 PATIENCE = 600.0  # s: a child of low priority, beside other tests
 
@@ -179,20 +183,28 @@ def test_both_engines_end_a_shot_at_the_same_place(name):
 
 
 def test_one_program_serves_every_course_with_one_ball_and_one_with_several():
-    courses = [*map(load_course, COURSES), *OTHER_COURSES.values()]
-    one, several = (
-        {World(course, balls, engine='python').program for course in courses} for balls in (1, 2)
-    )
+    one, several = programs_of(LEVEL_WIND, 1), programs_of(LEVEL_WIND, 2)
     assert len(one) == 1 and len(several) == 2  # without balls that collide it is that of one ball
     assert one < several
+
+
+def test_one_more_program_serves_every_course_with_a_wind_field():
+    with_field = [course for course in map(load_course, COURSES) if course.wind_field]
+    assert len(with_field) > 1
+    assert len(programs_of(with_field, 1)) == 1
+    assert not programs_of(with_field, 1) & programs_of(LEVEL_WIND, 1)
+
+
+def programs_of(courses, balls):
+    return {World(course, balls, engine='python').program for course in courses}
 
 
 @needs_numba
 def test_another_course_compiles_nothing():
     entries = engines.compiled_engine()[1:4]
-    drive(World(load_course(COURSES[0]), engine='compiled'))
+    drive(World(LEVEL_WIND[0], engine='compiled'))
     compiled = [len(entry.signatures) for entry in entries]
-    for course in [*map(load_course, COURSES), *OTHER_COURSES.values()]:
+    for course in LEVEL_WIND:
         drive(World(course, engine='compiled'))
     assert [len(entry.signatures) for entry in entries] == compiled
 
