@@ -30,7 +30,8 @@ from ..physics.jit.build import Build, READY
 
 EPILOG = """One program serves every course with one ball, another every course with several; two
 more those with a wind field (--course links). They are kept in a folder of their own for each
-version of the physics; GOLF_SIM_ROS_CACHE names its parent. The exit code is 0 when all is compiled, 1 when it cannot be, 2 for wrong arguments."""
+version of the physics; GOLF_SIM_ROS_CACHE names its parent. The exit code is 0 when all is
+compiled, 1 when it cannot be, 2 for wrong arguments."""
 PROGRAMS = {'one ball': ('ball',), 'several balls': ('red', 'blue')}
 BAR = '{percentage:3.0f} % |{bar}| {remaining} left'
 LOOK = 0.2  # s between two looks

@@ -24,7 +24,6 @@ import numpy as np
 from . import placement, reporting
 from .collision.workspace import INVOLVED, new_workspace, TREE_AGE
 from .effects import choose, EffectNames, Scene, set_drift
-from .effects.turbulence import drifted, NONE
 from .engine.engines import checked_engine, compiled_engine, Program, PYTHON
 from .engine.event_loop import LOG_FULL, STAGES
 from .jit.build import Build, Part
@@ -343,14 +342,12 @@ class World:
             self._forget_tree()  # or its shape would depend on the play before
 
     def _carry(self, now: float) -> None:
-        """Let the wind carry its turbulence up to now, which is `now` on the clock from here."""
-        intensity, seed, *before = self._live.get('turbulence', NONE)
-        if intensity == 0.0:
-            return
-        drift, wind = np.array(before), np.array(self._live['wind'])
-        x, y, _ = drifted(three(drift), three(wind), self._now)
-        self._live['turbulence'] = (intensity, seed, x, y, now)
-        set_drift(self._model.effects, (x, y, now))
+        """Let the wind carry what it does up to now, which is `now` on the clock from here."""
+        for effect, of in LIVE.items():
+            if of.carried:
+                self._live[effect] = value = of.carried(self._live, self._now, now)
+                x, y, time = value[-3:]
+                set_drift(self._model.effects, (x, y, time))
 
     def _forget_tree(self) -> None:
         """Let the engine build the tree of the balls' boxes anew."""
@@ -470,8 +467,7 @@ class World:
         value = checked_live(effect, value)
         if value == self._live[effect]:
             return
-        if effect == 'wind':
-            self._carry(self._now)
+        self._carry(self._now)
         self._live[effect] = value
         self._choose()
         self._use(model_.with_effects(self._model, self._records))

@@ -19,7 +19,7 @@ its fields are free to change while running.
 """
 
 from math import sqrt
-from typing import Any, Callable, NamedTuple
+from typing import Any, Callable, Mapping, NamedTuple, Optional
 
 import numpy as np
 
@@ -35,10 +35,14 @@ class Live(NamedTuple):
     """Live parameter of an effect: what may change while balls move.
 
     ``check``: makes a tuple of floats of a value, or raises ValueError; ``default``: such a tuple.
+    ``carried``: of an effect in the air that wind carries along, its value at another time, whose
+    last three numbers are the drift, see `set_drift`. From all live parameters by name, the time
+    on the clock [s], and the time to which the clock is set then.
     """
 
     check: Callable[[Any], tuple[float, ...]]
     default: tuple[float, ...]
+    carried: Optional[Callable[[Mapping[str, Any], float, float], tuple[float, ...]]] = None
 
 
 class Flow(NamedTuple):

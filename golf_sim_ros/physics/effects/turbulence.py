@@ -23,7 +23,7 @@ box is carried by the integral of the wind over time.
 
 from functools import lru_cache
 from math import floor, isfinite, sqrt
-from typing import Any, NamedTuple, Optional
+from typing import Any, Mapping, NamedTuple, Optional
 
 import numpy as np
 
@@ -287,7 +287,16 @@ def checked_turbulence(turbulence: Any) -> tuple[float, ...]:
     return (intensity, seed, *drift)
 
 
-LIVE = protocol.Live(checked_turbulence, NONE)
+def carried(live: Mapping[str, Any], time: float, now: float) -> tuple[float, ...]:
+    """Carry the box with the wind of `live` up to a `time`, which is called `now` from then on."""
+    intensity, seed, *drift = live['turbulence']
+    if intensity == 0.0:
+        return live['turbulence']
+    x, y, _ = drifted(tuple(drift), live['wind'], time)
+    return intensity, seed, x, y, now
+
+
+LIVE = protocol.Live(checked_turbulence, NONE, carried)
 
 
 def record(scene: Scene) -> Turbulence:
