@@ -130,13 +130,16 @@ where a sponge draws the air to the profile. Staggered velocities; the gradient 
 is the exact adjoint of its divergence, solved by conjugate gradients, preconditioned by the
 operator of level ground (fast diagonalisation). QUICK in advective form, implicit steps along x,
 y, zeta. The mixing length at a face is the logarithmic mean, so that the logarithmic profile is
-an exact solution of the discrete equations over level ground. Lengths of the wind speed enter
-only by scale: one field serves all speeds.
+an exact solution of the discrete equations over level ground. The speed of the wind is but a
+scale of all this: one field serves all speeds.
 
 In flight the field is read as the logarithmic law of the local roughness at the true height over
 the ground, times the ratio that was solved for: quadratic splines, so that the wind and its
-gradient are continuous, and the wall law below the lowest cell. Between two directions the wind
-is the sum of both, weighted so that as vectors they make it.
+gradient are continuous, and the wall law below the lowest cell; the logarithm of the roughness is
+a spline, too. Beyond the land, and higher than 80 m over ground and trees, where the field ends,
+the ratio goes on as at its edge; below the ground the air is still. Between two directions the
+wind is the sum of both, weighted so that as vectors they make it. It acts on balls on the ground
+as on those in flight.
 
 ![wind over tall pines](wind_tall_pines.webp)
 

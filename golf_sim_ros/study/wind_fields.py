@@ -100,10 +100,10 @@ def of_directions(count: int) -> WindRow:
 def against(what: str, fields: Sequence[WindField], cells: int, time: float) -> WindRow:
     """`WindRow` of the first of two `fields` against the second."""
     winds = [(WIND * cos(angle), WIND * sin(angle), 0.0) for angle in TRIED]
-    apart = [rms(fields, winds, height) for height in HEIGHTS]
+    low, high = (rms(fields, winds, height) for height in HEIGHTS)
     one, other = (landings(field, winds) for field in fields)
     off = np.linalg.norm(one - other, axis=-1)
-    return WindRow(what, *apart, float(off.mean()), float(off.max()), cells, time)
+    return WindRow(what, low, high, float(off.mean()), float(off.max()), cells, time)
 
 
 def rms(fields: Sequence[WindField], winds: Sequence[tuple], height: float) -> float:

@@ -64,7 +64,7 @@ class WindField:
     ----------
     cells : Cells
     atlas : WindAtlas
-        Its numbers but the coefficients ``ratios`` and ``roughness``, which are made of `cells`.
+        Its numbers; the coefficients ``ratios`` and ``roughness`` are made of `cells`.
     survey : Survey
         Of the ground, for `velocity`.
     digest : str
@@ -115,9 +115,9 @@ class WindField:
             [m/s]
         """
         points = np.asarray(points, float).reshape(-1, 3)
-        wind = np.append(np.asarray(wind, float), 0.0)[:3]
+        blown = np.append(np.asarray(wind, float), 0.0)[:3]
         atlas, layout = self.atlas, layout_of(self.atlas)
-        low, high, first, second = directions_beside(atlas.angles, wind)
+        low, high, first, second = directions_beside(atlas.angles, blown.tolist())
         now = first * atlas.ratios[low].astype(float) + second * atlas.ratios[high].astype(float)
         ground = self.survey.heights_at(points[:, 0], points[:, 1])
         above = np.maximum(points[:, 2] - ground, 0.0)
@@ -137,7 +137,7 @@ class WindField:
                 smooth = smooth + a * b * atlas.roughness[i, j]
                 for k, c in zip(*up):
                     ratio = ratio + (a * b * c)[:, None] * now[i, j, k, :3]
-        ratio[:, 2] += wind[2]
+        ratio[:, 2] += blown[2]
         return (layout.weight * np.log(1.0 + above * np.exp(smooth)))[:, None] * ratio
 
     def save(self, path: str | os.PathLike, compact: bool = False) -> None:
@@ -232,10 +232,11 @@ class WindField:
         check_axes(numbers)
         first, growth, datum, top, upstream = numbers['heights'].tolist()
         (x, y), spacing = numbers['plan'].tolist()
+        cells = Cells(ratios.astype(np.float32), numbers['roughness'], numbers['residuals'])
         atlas = WindAtlas(
             numbers['angles'],
-            None,
-            None,
+            cells.ratios,
+            cells.roughness,
             (x, y),
             tuple(spacing),
             first,
@@ -251,7 +252,6 @@ class WindField:
             numbers['ground_roughness'],
             upstream,
         )
-        cells = Cells(ratios.astype(np.float32), numbers['roughness'], numbers['residuals'])
         return cls(cells, atlas, survey, str(content['digest']), str(content['accuracy']))
 
 

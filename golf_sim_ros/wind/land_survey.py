@@ -199,10 +199,11 @@ def mean_over(values: np.ndarray, widths: Sequence[float]) -> np.ndarray:
         weights = np.ones(2 * half + 1)
         weights[[0, -1]] = 0.5
         weights /= weights.sum()
-        values = sum(
+        parts = [
             weight * np.take(padded, np.arange(n, n + values.shape[axis]), axis)
             for n, weight in enumerate(weights)
-        )
+        ]
+        values = np.sum(parts, axis=0)
     return values
 
 

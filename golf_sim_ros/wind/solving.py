@@ -47,7 +47,7 @@ Progress = Callable[[int, int, float], None]
 class Case(NamedTuple):
     """All that a flow over a course needs but the direction.
 
-    ``box``: its land; ``core``: slices of the cells over it, and below what is kept.
+    ``core``: slices of the cells over its land, and up to the highest that are kept.
     """
 
     survey: Survey
@@ -216,10 +216,15 @@ def field_of(
     grid, (i, j, _) = case.grid, case.core
     angles = sorted(solved)
     first, growth = layer_law(grid.zeta)
+    cells = Cells(
+        np.stack([solved[angle].ratios for angle in angles]),
+        case.land.roughness[i, j],
+        padded([solved[angle].residuals for angle in angles]),
+    )
     atlas = WindAtlas(
         np.array(angles),
-        None,
-        None,
+        cells.ratios,
+        cells.roughness,
         (float(grid.xc[i][0]), float(grid.yc[j][0])),
         (float(grid.metric.dx[i][0]), float(grid.metric.dy[j][0])),
         first,
@@ -227,11 +232,6 @@ def field_of(
         case.survey.datum,
         float(grid.top),
         case.survey.upstream,
-    )
-    cells = Cells(
-        np.stack([solved[angle].ratios for angle in angles]),
-        case.land.roughness[i, j],
-        padded([solved[angle].residuals for angle in angles]),
     )
     name = accuracy if isinstance(accuracy, str) else 'other'
     return WindField(cells, atlas, case.survey, land_digest(course), name)

@@ -16,6 +16,7 @@
 
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -50,12 +51,13 @@ class Unfinished:
     def add(self, angle: float, solved: Solved) -> None:
         """Keep what was `Solved` for an angle."""
         self.solved[angle] = solved
-        rows = list(self.solved.values())
-        ratios = {f'ratios{n}': row.ratios for n, row in enumerate(rows)}
-        residuals = {f'residuals{n}': row.residuals for n, row in enumerate(rows)}
+        content: dict[str, Any] = {'key': self.key, 'angles': list(self.solved)}
+        for number, row in enumerate(self.solved.values()):
+            content[f'ratios{number}'] = row.ratios
+            content[f'residuals{number}'] = row.residuals
         new = self.path.with_name(f'{self.path.name}.new')
         with open(new, 'wb') as file:
-            np.savez(file, key=self.key, angles=list(self.solved), **ratios, **residuals)
+            np.savez(file, **content)
         os.replace(new, self.path)
 
     def forget(self) -> None:

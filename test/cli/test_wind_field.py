@@ -14,6 +14,9 @@
 
 """The command wind_field: it solves, goes on where it stopped, says what is wrong in one line."""
 
+import subprocess
+import sys
+
 from golf_sim_ros.cli import wind_field
 from golf_sim_ros.course import load_course
 from golf_sim_ros.physics.engine.engines import missing
@@ -154,13 +157,29 @@ def test_numbers_that_make_no_sense_are_refused(course, count):
             run(course, option, count)
 
 
-def test_without_numba_it_says_what_to_install(course, capsys, monkeypatch):
-    import sys
-
-    for name in [name for name in sys.modules if name.startswith('golf_sim_ros.wind.')]:
-        monkeypatch.delitem(sys.modules, name)
-    monkeypatch.delitem(sys.modules, 'golf_sim_ros.physics.jit.backend', raising=False)
-    monkeypatch.setitem(sys.modules, 'numba', None)
-    assert run(course) == 1
-    (line,) = capsys.readouterr().err.splitlines()
+def test_without_numba_it_says_what_to_install(course):
+    code = (
+        "import sys; sys.modules['numba'] = None\n"
+        'from golf_sim_ros.cli import wind_field\n'
+        'sys.exit(wind_field.main(sys.argv[1:]))'
+    )
+    words = [sys.executable, '-c', code, str(course), '-o', str(course.with_name('wind.npz'))]
+    done = subprocess.run(words, capture_output=True, text=True)
+    assert done.returncode == 1
+    (line,) = done.stderr.splitlines()
     assert line.startswith('wind_field: solving for a wind field needs numba: pip install')
+
+
+def test_without_numba_balls_fly_through_a_field():
+    code = (
+        "import sys; sys.modules['numba'] = None\n"
+        'from golf_sim_ros.course import load_course\n'
+        'from golf_sim_ros.physics import Shot, simulate\n'
+        'shot = Shot((30.0, 0.0, 15.0), (0.0, -300.0, 0.0))\n'
+        "links = load_course('links')\n"
+        "ends = [simulate(links, shot, wind=(0.0, v, 0.0), engine='python') for v in (0.0, 8.0)]\n"
+        'print(ends[1].result.side - ends[0].result.side)'
+    )
+    done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) > 1.0

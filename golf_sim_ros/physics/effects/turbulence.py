@@ -89,7 +89,7 @@ def eddies(
     """
     angles = wave_angles(nodes)
     waves = [angle / spacing for angle in angles]
-    square = sum(k * k for k in waves)
+    square = np.sum([k * k for k in waves], axis=0)
     square[0, 0, 0] = 1.0
     # of a curl of noise: its waves are k times as large
     amplitude = np.sqrt(energy(np.sqrt(square), scale)) / square
@@ -106,7 +106,7 @@ def eddies(
 def wave_angles(nodes: tuple[int, ...]) -> list[np.ndarray]:
     """Wave numbers along the axes, times the spacing, as a real Fourier transform has them."""
     turns = [np.fft.fftfreq(count) for count in nodes[:2]] + [np.fft.rfftfreq(nodes[2])]
-    return np.meshgrid(*(2.0 * np.pi * turn for turn in turns), indexing='ij')
+    return list(np.meshgrid(*(2.0 * np.pi * turn for turn in turns), indexing='ij'))
 
 
 def energy(size: np.ndarray, scale: float) -> np.ndarray:
