@@ -33,6 +33,7 @@ from .conversions import triple
 from .game import Game
 from .lifecycle import run
 from .log_lines import effect_lines, with_reasons
+from .memory import give_back_memory
 from .older_rclpy import after_set, SubscriptionEventCallbacks, UnsupportedEventTypeError
 from .parameters import checked, declared, Parameters, PROGRAM
 from .publishers import Publishers
@@ -92,6 +93,7 @@ class SimNode(Node):
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)
         self.beat = self.create_timer(1.0, self.on_beat, clock=steady)
         self.heart = self.create_timer(HEARTBEAT, self.on_heartbeat, clock=steady)
+        give_back_memory()
         self.introduce()
 
     def new_world(self, given: Parameters) -> World:

@@ -211,7 +211,7 @@ class WindField:
         if ratios.size > MOST_NUMBERS:
             raise FieldError(f'ratios are too many: {ratios.size}')
         if ratios.dtype == np.int16 and ratios.ndim == 5:
-            ratios = np.array([(STEP * one).astype(np.float32) for one in summed(ratios)])
+            ratios = in_steps(summed(ratios))
         if ratios.dtype.kind != 'f' or ratios.ndim != 5 or ratios.shape[-1] != 4:
             raise FieldError(f'ratios have the type {ratios.dtype} and the shape {ratios.shape}')
         n, nx, ny, _, _ = ratios.shape
@@ -227,12 +227,14 @@ class WindField:
             'ground_roughness': (content['ground_x'].size, content['ground_y'].size),
         }
         numbers = {name: checked(content, name, shape) for name, shape in shapes.items()}
-        if not min(ratios.shape) or not np.isfinite(ratios).all() or abs(ratios).max() > MOST:
+        if not min(ratios.shape) or not (-MOST <= ratios.min() <= ratios.max() <= MOST):
             raise FieldError('ratios are not finite, too large, or none')
         check_axes(numbers)
         first, growth, datum, top, upstream = numbers['heights'].tolist()
         (x, y), spacing = numbers['plan'].tolist()
-        cells = Cells(ratios.astype(np.float32), numbers['roughness'], numbers['residuals'])
+        cells = Cells(
+            ratios.astype(np.float32, copy=False), numbers['roughness'], numbers['residuals']
+        )
         atlas = WindAtlas(
             numbers['angles'],
             cells.ratios,
@@ -285,6 +287,14 @@ def summed(steps: np.ndarray) -> np.ndarray:
     for axis in (3, 1):
         steps = np.cumsum(steps, axis=axis, dtype=np.int16)
     return steps
+
+
+def in_steps(counts: np.ndarray) -> np.ndarray:
+    """Numbers of so many `STEP`, by direction: all at once would take the space twice."""
+    numbers = np.empty(counts.shape, np.float32)
+    for row, count in zip(numbers, counts):
+        row[:] = STEP * count
+    return numbers
 
 
 def checked(
