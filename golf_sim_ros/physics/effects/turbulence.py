@@ -82,7 +82,7 @@ class Turbulence(NamedTuple):
 def eddies(
     seed: int, nodes: tuple[int, int, int] = NODES, spacing: float = SPACING, scale: float = SCALE
 ) -> np.ndarray:
-    """Random velocity at the nodes of a periodic box, (*nodes, 3): isotropic, without divergence.
+    """Random velocity at the nodes of a periodic box: isotropic, without divergence, (n, m, l, 3).
 
     Its spectrum is von Karman's (Proc. Natl. Acad. Sci. 34 (1948) 530-539), E(k) = (L k)^4 / (1 +
     (L k)^2)^(17/6) but for a factor, of waves that the nodes resolve.
