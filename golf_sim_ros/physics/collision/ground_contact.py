@@ -24,6 +24,8 @@ Where the swept box of a segment overlaps many parts, the segment is tested stre
 each halved until its box overlaps few: only parts near the path are tested.
 """
 
+from typing import NamedTuple
+
 from .conservative_advancement import (
     advancement_bound,
     is_long,
@@ -41,7 +43,7 @@ from ..geometry.plane_patch import FLUSH
 from ..geometry.surfaces import Ground
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Box, Heights, Vector
-from ..mechanics.vector import add_scaled, dot, length, load
+from ..mechanics.vector import add_scaled, dot, length, load, ZERO
 from ..state.ball import NO_PART
 from ..trajectory.segment import (
     acceleration_bounds,
@@ -74,6 +76,21 @@ IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 OPEN, CLEAR, HIT = range(3)
 
 
+class Facing(NamedTuple):
+    """How a ball faces a part at one time of its segment.
+
+    ``distance`` of its centre, ``normal`` of the part, ``gap``, its ``rate``, by how much that
+    falls a second, ``bend``, and the curvature of hollows.
+    """
+
+    distance: float
+    normal: Vector
+    gap: float
+    rate: float
+    bend: float
+    hollow: float
+
+
 @kernel
 def sees_one_normal(ground: Ground, part: int, ball: BallRecord, normal: Vector) -> bool:
     """Whether a convex `part` has the same contact `normal` along the whole segment."""
@@ -89,15 +106,15 @@ def sees_one_normal(ground: Ground, part: int, ball: BallRecord, normal: Vector)
 @kernel
 def plane_gap_bounds(
     ground: Ground, part: int, ball: BallRecord, radius: float
-) -> tuple[Heights, float, float]:
+) -> tuple[Heights, float, float, Vector]:
     """Bernstein coefficients of the gap to `part` of one normal.
 
-    Also bounds on how fast its rate falls, and rises.
+    Also bounds on how fast its rate falls, and rises, and that normal.
     """
     distance, normal = surfaces.nearest(ground, part, control_point(ball, 0))
     over = plane_gap_coefficients(ball, normal, distance - radius)
     falls, rises = acceleration_bounds(over, ball['span'])
-    return over, falls, rises
+    return over, falls, rises, normal
 
 
 @kernel
@@ -151,17 +168,17 @@ def penetration_exit_time(
     ball: BallRecord,
     radius: float,
     when: tuple[float, float],
-    facing: tuple[float, float, float, float],
+    facing: Facing,
 ) -> float:
     """Safe time [s] for which a ball in a cut of `part` has not left it yet.
 
     Or a ball behind a one-sided sheet. There the gap is negative, and no impact. Along a straight
     line a convex gap stays below its chord, and the path strays from that line by at most
     A s^2 / 2. A cut reaches up to its outline, however near to the plane the ball moves. `when`
-    and `facing` are as in `touch`.
+    is as in `touch`.
     """
     time, until = when
-    gap, _, bend, hollow = facing
+    gap, bend, hollow = facing.gap, facing.bend, facing.hollow
     place = position(ball, time)
     way = velocity(ball, time)
     least = max(-gap, 1e-6) / (length(way) + bend * until + 1e-3)
@@ -183,17 +200,17 @@ def touch(
     ball: BallRecord,
     radius: float,
     when: tuple[float, float],
-    facing: tuple[float, float, float, float],
+    facing: Facing,
 ) -> tuple[float, int]:
     """Tell what a gap to `part` of zero comes to: OPEN, CLEAR until a later time, or HIT.
 
     The time comes first, the later one or now. `when`: the time of it, and that up to which it is
-    asked; `facing`: the gap, its rate, by how much that falls a second, and the curvature of
-    hollows.
+    asked.
     """
     time, until = when
-    rate = facing[1]
-    if not surfaces.touchable(ground, part, position(ball, time)):
+    rate = facing.rate
+    place = position(ball, time)
+    if not surfaces.touchable_at(ground, part, place, facing.distance, facing.normal):
         return time + penetration_exit_time(ground, part, ball, radius, when, facing), CLEAR
     # An edge's place is exact to FLUSH, so its normal to FLUSH over the radius: a rate within that
     # may be of either sign, and `separation_time` tells which.
@@ -220,8 +237,9 @@ def time_of_impact(
     span = ball['span']
     level = surfaces.is_plane(ground, part)
     rises = NEVER
+    distance, normal = 0.0, ZERO
     if level:
-        over, bend, rises = plane_gap_bounds(ground, part, ball, radius)
+        over, bend, rises, normal = plane_gap_bounds(ground, part, ball, radius)
     else:
         over = NO_HEIGHTS
         bend = greatest_acceleration(ball)
@@ -230,14 +248,14 @@ def time_of_impact(
         ball['segments_spent'] += cost
         if level:
             gap, rate = plane_gap(over, span, time)
+            distance = gap + radius
         else:
             distance, normal = surfaces.nearest(ground, part, position(ball, time))
             gap = distance - radius
             rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
-            time, what = touch(
-                ground, part, ball, radius, (time, until), (gap, rate, bend, hollow)
-            )
+            facing = Facing(distance, normal, gap, rate, bend, hollow)
+            time, what = touch(ground, part, ball, radius, (time, until), facing)
             if what == HIT:
                 return time, True
             if what == CLEAR:
@@ -252,7 +270,7 @@ def time_of_impact(
         else:
             if step == FEW_STEPS and not level and sees_one_normal(ground, part, ball, normal):
                 level = True
-                over, bend, rises = plane_gap_bounds(ground, part, ball, radius)
+                over, bend, rises, normal = plane_gap_bounds(ground, part, ball, radius)
             sure = advancement_bound(gap, rate, bend)
             time += sure
             if (

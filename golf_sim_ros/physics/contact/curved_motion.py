@@ -27,6 +27,7 @@ from .contact_state import choose_contact_mode, in_micro_bounces, remove_slip
 from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..integrators import step
+from ..integrators.runge_kutta import store_stage
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Land, ModelRecord, Vector
 from ..mechanics.impulse import slip
@@ -34,12 +35,13 @@ from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale,
 from ..state.ball import moves, ROLL, SLIDE
 from ..state.transitions import begin_rolling, begin_sliding, take_off
 from ..trajectory.equations_of_motion import (
-    contact_rates,
     growth_rate,
     LEAST_SPEED,
     material_under,
+    rates_on,
     supporting_surface,
-    turn_of_normal,
+    turning_surface,
+    TurningSurface,
     unwinding,
 )
 from ..trajectory.segment import fit_segment, position
@@ -68,20 +70,22 @@ SLIP_TIME = 1e-8  # s
 
 
 @shared
-def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
+def curved_segment(
+    model: ModelRecord, ball: BallRecord, now: float, surface: TurningSurface
+) -> None:
     """Plan a step along ground of any form, or lift off where nothing presses.
 
-    Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in
-    small ways only: see `snap_small_motion`.
+    `surface` is the `turning_surface` of the ball as it is now. Writes curve, ending, integrator,
+    phase, velocity, spin, segments_spent. The motion changes in small ways only: see
+    `snap_small_motion`.
     """
     land = model.land
     place = load(ball['position'])
+    v = load(ball['velocity'])
     w = load(ball['spin'])
-    force, _, press, needed = contact_rates(land, ball, place, load(ball['velocity']), w)
+    force, _, press, needed = rates_on(land, ball, surface, (place, v, w))
     # The air is asked only where the weight does not hold the ball: see `press_with_air`.
-    holding = (
-        press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
-    )
+    holding = press if press > 0.0 else press_with_air(model, surface, place, v, w)
     if holding <= 0.0:
         take_off(ball)
         return
@@ -91,9 +95,12 @@ def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     snap_small_motion(land, ball, force, press, grips, now)
     if not moves(ball['phase']):
         return
-    v = load(ball['velocity'])
-    force, _, press, _ = contact_rates(land, ball, place, v, load(ball['spin']))
-    turn = turn_of_normal(land, ball, place, v)
+    if load(ball['velocity']) != v:
+        v = load(ball['velocity'])
+        surface = turning_surface(land, ball, place, v)
+    force, torque, press, _ = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
+    store_stage(ball, 0, v, force, torque)
+    turn = surface[2]
     h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
     h = min(h, MOST_NORMAL_TURN / max(length(turn), 1e-3))
     h = min(h, time_to_unwind(land, ball, press, turn))
@@ -110,13 +117,13 @@ def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
         step(model, ball)
         following = ball['step']
         h = ball['span']
-        held = project_to_ground(land, ball)
+        held, normal = project_to_ground(land, ball)
         if held <= 0.0:
             end = add_scaled(place, 1.0, load(ball['position_coefficients'][5]))
-            held = press_with_air(
-                model, ball, end, end_velocity(ball), load(ball['spin_coefficients'][3])
-            )
-        left = step_share_to_change(land, ball, v, slipping, holding, held)
+            fast = end_velocity(ball)
+            ground = turning_surface(land, ball, end, fast)
+            held = press_with_air(model, ground, end, fast, load(ball['spin_coefficients'][3]))
+        left = step_share_to_change(land, ball, (v, slipping), (holding, held), normal)
         if left == 1.0:
             left = step_share_on_ground(land, ball)
             following = min(following, 2.0 * h * left)  # what limits this step limits the next one
@@ -130,15 +137,14 @@ def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
 
 @shared
 def press_with_air(
-    model: ModelRecord, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
+    model: ModelRecord, surface: TurningSurface, place: Vector, velocity: Vector, spin: Vector
 ) -> float:
     """Press [m/s^2] of weight and aerodynamic forces together.
 
     Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be
     back at once. Elsewhere only moving air acts on a ball on the ground: see `moving_air`.
     """
-    _, normal = surfaces.nearest(model.land.ground, ball['support'], place)
-    turn = surfaces.turn(model.land.ground, ball['support'], place, velocity)
+    _, normal, turn = surface
     force, _ = flight_rates(model.effects, model.land.ground, place, velocity, spin)
     return -dot(force, normal) - dot(velocity, turn)
 
@@ -241,13 +247,19 @@ def time_to_change(land: Land, ball: BallRecord, force: Vector, press: float) ->
 
 @shared
 def step_share_to_change(
-    land: Land, ball: BallRecord, v: Vector, slipping: Vector, holding: float, held: float
+    land: Land,
+    ball: BallRecord,
+    start: tuple[Vector, Vector],
+    presses: tuple[float, float],
+    normal: Vector,
 ) -> float:
     """Share of the step that stays before a discontinuity of the equations, or 1.
 
-    ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the
-    end.
+    ``start``: velocity and slip at the start; ``presses``: what keeps the ball on the ground, at
+    the start and at the end; ``normal``: at the end.
     """
+    v, slipping = start
+    holding, held = presses
     if held < -LIFTS * holding:
         return max(holding / (holding - held), 0.01)
     gain, allowed = gained(land, ball), GAIN * land.limits.path + LEAST_GAIN * (1.0 + dot(v, v))
@@ -256,7 +268,9 @@ def step_share_to_change(
     # Slip or velocity that has turned round within the step has passed through zero, unseen by its
     # stages.
     if ball['phase'] == SLIDE:
-        turned = length(slipping) > LEAST_SPEED and dot(slipping, slip_at_end(land, ball)) < 0.0
+        turned = (
+            length(slipping) > LEAST_SPEED and dot(slipping, slip_at_end(land, ball, normal)) < 0.0
+        )
     else:
         turned = (
             material_under(land, ball)['rolling_resistance'] > 0.0
@@ -295,11 +309,11 @@ def gained(land: Land, ball: BallRecord) -> float:
 
 
 @shared
-def project_to_ground(land: Land, ball: BallRecord) -> float:
+def project_to_ground(land: Land, ball: BallRecord) -> tuple[float, Vector]:
     """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
-    The position is not projected after the shortest of steps: its rounding error far from the
-    origin, 5e-14 m, over a nanosecond is speed. Writes curve.
+    And the normal there. The position is not projected after the shortest of steps: its rounding
+    error far from the origin, 5e-14 m, over a nanosecond is speed. Writes curve.
     """
     r = land.ball.radius
     x0 = load(ball['position'])
@@ -314,7 +328,8 @@ def project_to_ground(land: Land, ball: BallRecord) -> float:
     if ball['phase'] == ROLL:
         spin = add_scaled(scale(1.0 / r, cross(normal, velocity)), dot(spin, normal), normal)
     store(ball['spin_coefficients'][3], spin)
-    force, torque, press, _ = contact_rates(land, ball, end, velocity, spin)
+    surface = turning_surface(land, ball, end, velocity)
+    force, torque, press, _ = rates_on(land, ball, surface, (end, velocity, spin))
     first = ball['stages'][0]
     fit_segment(
         ball,
@@ -323,7 +338,7 @@ def project_to_ground(land: Land, ball: BallRecord) -> float:
         (load(first[3:6]), force),
         (load(first[6:9]), torque),
     )
-    return press
+    return press, surface[1]
 
 
 @kernel
@@ -334,8 +349,6 @@ def end_velocity(ball: BallRecord) -> Vector:
 
 
 @kernel
-def slip_at_end(land: Land, ball: BallRecord) -> Vector:
-    """Slip of the ball at the end of its segment."""
-    place = add_scaled(load(ball['origin']), 1.0, load(ball['position_coefficients'][5]))
-    _, normal = supporting_surface(land, ball, place)
+def slip_at_end(land: Land, ball: BallRecord, normal: Vector) -> Vector:
+    """Slip of the ball at the end of its segment, where the ground has that `normal`."""
     return slip(end_velocity(ball), load(ball['spin_coefficients'][3]), normal, land.ball.radius)

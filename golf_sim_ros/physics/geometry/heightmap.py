@@ -46,6 +46,7 @@ from ..properties.material import Material
 WIDE = 10.0
 SEVERAL = 256  # effort of a cell where the distance may have several minima
 ON_SEAM = 1e-9  # rad: above a seam but for this angle, a ball is above both cells
+INNER = 1e-6  # of the spacing: a foot so far within a cell is on no seam
 
 
 class Heightmap(NamedTuple):
@@ -59,6 +60,20 @@ class Heightmap(NamedTuple):
     origin: tuple[float, float] = (0.0, 0.0)
     spacing: float = 1.0
     material: Material = Material()
+
+
+class Foot(NamedTuple):
+    """Closest point of a cell or a map: `x`, `y`, and `bicubic` there.
+
+    ``box``: the part's rectangle; ``below``: whether the point that asks is under the part.
+    Coordinates are metres from the map's origin.
+    """
+
+    box: Rectangle
+    x: float
+    y: float
+    at: SurfacePoint
+    below: bool
 
 
 class Maps(NamedTuple):
@@ -266,16 +281,27 @@ def _nearest(kind: Maps, part: int, point: Vector) -> tuple[float, Vector]:
         if beside:
             offset = (local[0] - x, local[1] - y, 0.0)
             return length(offset), unit(offset, outward(kind, grid, part))
-    x, y, at = place_under(kind, grid, part, local)
-    offset = (local[0] - x, local[1] - y, local[2] - at[0])
-    upright = unit((-at[1], -at[2], 1.0), ZERO)
-    sign = -1.0 if is_below_map(kind, grid, part, local, (x, y), at) else 1.0
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
-    if x0 < x < x1 and y0 < y < y1:  # the slopes give the normal more exactly than a short offset
+    return distance_from(foot_under(kind, grid, part, local), local)
+
+
+@kernel
+def distance_from(foot: Foot, local: Vector) -> tuple[float, Vector]:
+    """Signed distance of a point from its `foot`, and the unit normal there."""
+    offset = (local[0] - foot.x, local[1] - foot.y, local[2] - foot.at[0])
+    upright = unit((-foot.at[1], -foot.at[2], 1.0), ZERO)
+    sign = -1.0 if foot.below else 1.0
+    if is_within(foot.box, foot.x, foot.y):
+        # The slopes give the normal more exactly than a short offset.
         away = dot(offset, upright)
         facing = -1.0 if away < 0.0 < sign else 1.0  # past a wall, towards the back
         return facing * away, scale(facing, upright)
     return sign * length(offset), unit(scale(sign, offset), upright)
+
+
+@kernel
+def is_within(box: Rectangle, x: float, y: float) -> bool:
+    """Whether a point in plan is within a rectangle, and not on its sides."""
+    return box[0] < x < box[2] and box[1] < y < box[3]
 
 
 @kernel
@@ -286,28 +312,23 @@ def is_over_map(grid: StructRecord, local: Vector) -> bool:
 
 
 @shared
-def is_below_map(
-    kind: Maps,
-    grid: StructRecord,
-    part: int,
-    local: Vector,
-    place: tuple[float, float],
-    at: SurfacePoint,
-) -> bool:
-    """Whether a point is under `part`, a cell or a map, whose closest point is at `place`.
+def foot_under(kind: Maps, grid: StructRecord, part: int, local: Vector) -> Foot:
+    """Closest point of `part`, a cell, a map, or a wall's upper edge.
 
-    Beyond a wall a point is outside, even if it is nearest to the back of ground that falls away
+    Beyond a wall a point is not below, even if it is nearest to the back of ground that falls away
     from there.
     """
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
-    if x0 < place[0] < x1 and y0 < place[1] < y1:
-        offset = (local[0] - place[0], local[1] - place[1], local[2] - at[0])
-        return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
-    return (
-        x0 < local[0] < x1
-        and y0 < local[1] < y1
-        and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0]
-    )
+    x, y, at = place_under(kind, grid, part, local)
+    box = rectangle(kind, grid, part)
+    if is_within(box, x, y):
+        offset = (local[0] - x, local[1] - y, local[2] - at[0])
+        below = dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
+    else:
+        below = (
+            is_within(box, local[0], local[1])
+            and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0]
+        )
+    return Foot(box, x, y, at, below)
 
 
 @shared
@@ -321,14 +342,12 @@ def outward(kind: Maps, grid: StructRecord, part: int) -> Vector:
 
 @surface_protocol.turn.register(Maps)
 def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
-    # The closest point moves so that it stays closest (implicit differentiation, with the Hessian
-    # of half the squared distance); held by a border, it moves along that only.
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
     if is_wall(kind, grid, part):
         beside, x, y = beside_wall(kind, grid, part, local)
         if beside:
+            x0, y0, x1, y1 = rectangle(kind, grid, part)
             offset = (local[0] - x, local[1] - y, 0.0)
             moving = (
                 velocity[0] if x0 < x < x1 else 0.0,
@@ -336,11 +355,36 @@ def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
                 velocity[2],
             )
             return turned(sub(velocity, moving), offset)
-    x, y, at = place_under(kind, grid, part, local)
-    offset = (local[0] - x, local[1] - y, local[2] - at[0])
-    gx, gy = pulls(local, x, y, at)
-    fixed_x = x0 == x1 or held(x, x0, x1, gx)
-    fixed_y = y0 == y1 or held(y, y0, y1, gy)
+    return turn_over(foot_under(kind, grid, part, local), local, velocity)
+
+
+@surface_protocol.nearest_turning.register(Maps)
+def _nearest_turning(
+    kind: Maps, part: int, point: Vector, velocity: Vector
+) -> tuple[float, Vector, Vector]:
+    grid = kind.grids[grid_of(kind, part)]
+    if is_wall(kind, grid, part):
+        distance, normal = surface_protocol.nearest(kind, part, point)
+        return distance, normal, surface_protocol.turn(kind, part, point, velocity)
+    local = from_origin(grid, point)
+    foot = foot_under(kind, grid, part, local)
+    distance, normal = distance_from(foot, local)
+    return distance, normal, turn_over(foot, local, velocity)
+
+
+@kernel
+def turn_over(foot: Foot, local: Vector, velocity: Vector) -> Vector:
+    """Rate of change of the unit normal at the `foot` of a point that moves at `velocity`.
+
+    The closest point moves so that it stays closest (implicit differentiation, with the Hessian
+    of half the squared distance); held by a border, it moves along that only.
+    """
+    x0, y0, x1, y1 = foot.box
+    at = foot.at
+    offset = (local[0] - foot.x, local[1] - foot.y, local[2] - at[0])
+    gx, gy = pulls(local, foot.x, foot.y, at)
+    fixed_x = x0 == x1 or held(foot.x, x0, x1, gx)
+    fixed_y = y0 == y1 or held(foot.y, y0, y1, gy)
     a, b, c = curvatures(local, at)
     p = velocity[0] + at[1] * velocity[2]
     q = velocity[1] + at[2] * velocity[2]
@@ -354,8 +398,7 @@ def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
         dx = (c * p - b * q) / (a * c - b * b)
         dy = (a * q - b * p) / (a * c - b * b)
     rate = sub(velocity, (dx, dy, at[1] * dx + at[2] * dy))
-    sign = -1.0 if is_below_map(kind, grid, part, local, (x, y), at) else 1.0
-    return scale(sign, turned(rate, offset))
+    return scale(-1.0 if foot.below else 1.0, turned(rate, offset))
 
 
 @kernel
@@ -397,6 +440,17 @@ def _touchable(kind: Maps, part: int, point: Vector) -> bool:
         and gy < -free
         and row < grid['ny'] - 1
     )
+
+
+@surface_protocol.is_inner.register(Maps)
+def _is_inner(kind: Maps, part: int, foot: Vector) -> bool:
+    grid = kind.grids[grid_of(kind, part)]
+    if is_wall(kind, grid, part):
+        return False
+    x, y, _ = from_origin(grid, foot)
+    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    room = INNER * grid['spacing']
+    return is_within((x0 + room, y0 + room, x1 - room, y1 - room), x, y)
 
 
 @surface_protocol.hollow.register(Maps)

@@ -114,6 +114,9 @@ def named_after(law: Callable[..., Any], asked: Function) -> Function:
 
 nearest = of_its_kind(surface_protocol.nearest, (1e300, (0.0, 0.0, 1.0)))
 turn = of_its_kind(surface_protocol.turn, ZERO)
+nearest_turning = of_its_kind(
+    surface_protocol.nearest_turning, (1e300, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+)
 hollow = of_its_kind(surface_protocol.hollow, 0.0)
 effort = of_its_kind(surface_protocol.effort, 1)
 flat_under = of_its_kind(surface_protocol.flat_under, False)
@@ -122,6 +125,7 @@ is_plane = of_its_kind(surface_protocol.is_plane, False)
 in_cut = of_its_kind(surface_protocol.in_cut, False)
 limit = of_its_kind(surface_protocol.limit, (ZERO, ZERO))
 _touchable = of_its_kind(surface_protocol.touchable, False)
+_is_inner = of_its_kind(surface_protocol.is_inner, False)
 sort = of_its_kind(surface_protocol.sort, surface_protocol.GROUND_SORT)
 _own_material = of_its_kind(surface_protocol.material_of, 0)
 limits = of_its_kind(surface_protocol.limits, 0)
@@ -165,11 +169,23 @@ def goes_on(ground: Ground, part: int, other: int) -> bool:
 @shared
 def touchable(ground: Ground, part: int, point: Vector) -> bool:
     """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
-    if len(ground.hole) > 0 and is_ground(ground, part):
-        distance, normal = nearest(ground, part, point)
-        if in_hole(ground.hole, add_scaled(point, -distance, normal)):
-            return False
-    return _touchable(ground, part, point)
+    if not _touchable(ground, part, point):
+        return False
+    if len(ground.hole) == 0 or not is_ground(ground, part):
+        return True
+    distance, normal = nearest(ground, part, point)
+    return not in_hole(ground.hole, add_scaled(point, -distance, normal))
+
+
+@shared
+def touchable_at(
+    ground: Ground, part: int, point: Vector, distance: float, normal: Vector
+) -> bool:
+    """`touchable`, where `nearest` has given `distance` and `normal` already."""
+    foot = add_scaled(point, -distance, normal)
+    if len(ground.hole) > 0 and is_ground(ground, part) and in_hole(ground.hole, foot):
+        return False
+    return _is_inner(ground, part, foot) or _touchable(ground, part, point)
 
 
 @kernel
