@@ -57,7 +57,8 @@ CORRECTIONS = 12  # attempts at a step, each shorter than the last
 CORRECTION_WORK = 1
 # of the press at the start: a step at whose end the ground would pull harder is shortened
 LIFTS = 1e-6
-APPROACH = 0.75  # of the time until friction is discontinuous: the longest step towards it
+APPROACH = 0.9  # of the time until friction is discontinuous: the longest step towards it
+UNTOLD = 1e-2  # of the limit on a path's error: less tells nothing about a longer step
 # Energy over mass that a step may gain: so much for each metre that a path may be off, and so
 # much besides, which lifts a ball by 20 pm, and as much of the square of its speed.
 GAIN = 0.03  # m/s^2
@@ -89,6 +90,7 @@ def curved_segment(
     if holding <= 0.0:
         take_off(ball)
         return
+    phase = ball['phase']
     grips = needed <= material_under(land, ball)['static_friction'] * press
     if ball['phase'] == ROLL and not grips:
         begin_sliding(ball)
@@ -100,15 +102,9 @@ def curved_segment(
         surface = turning_surface(land, ball, place, v)
     force, torque, press, _ = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
     store_stage(ball, 0, v, force, torque)
-    turn = surface[2]
-    h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
-    h = min(h, MOST_NORMAL_TURN / max(length(turn), 1e-3))
-    h = min(h, time_to_unwind(land, ball, press, turn))
-    # Never up to a discontinuity, where the method would lose its order.
-    h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
-    if in_micro_bounces(ball, now):
-        h = min(h, UNBRAKED * MOST_NORMAL_TURN / max(length(turn), 1e-3))
-        h = min(h, ball['micro_bounce_end'] - now)
+    change = time_to_change(land, ball, force, press)
+    wanted = ball['step'] if ball['step'] > 0.0 and ball['phase'] == phase else FIRST_STEP
+    asked = h = min(wanted, longest_step(land, ball, press, surface[2], change))
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
     cost = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
     for _ in range(CORRECTIONS):
@@ -127,6 +123,11 @@ def curved_segment(
         if left == 1.0:
             left = step_share_on_ground(land, ball)
             following = min(following, 2.0 * h * left)  # what limits this step limits the next one
+            if h == asked < wanted:  # not by its error
+                following = max(following, min(wanted, 2.0 * h * left))
+            else:  # friction's direction turns the faster the nearer its change is
+                most = following if h == asked else 1.5 * h
+                following = min(following, most) * max(1.0 - h / change, 0.1)
             if left >= 1.0:
                 break
         if h * left <= LEAST_STEP:
@@ -153,17 +154,18 @@ def press_with_air(
 def step_share_on_ground(land: Land, ball: BallRecord) -> float:
     """Share of the step over which its curve stays on the ground, to the limit on a path's error.
 
-    It is 1 or more if the step stands. The curve interpolates position, velocity and acceleration
-    at both ends (quintic Hermite), so its error goes with the step's sixth power.
+    It is 1 or more if the step stands, without end if nothing is known of a longer one. The curve
+    interpolates position, velocity and acceleration at both ends (quintic Hermite), so its error
+    goes with the step's sixth power.
     """
     off = 0.0
     for i in range(1, 4):
         distance, _ = supporting_surface(land, ball, position(ball, 0.25 * i * ball['span']))
         off = max(off, abs(distance - land.ball.radius))
     if off <= land.limits.path:
-        return max(
-            1.0, 0.9 * (land.limits.path / max(off, 1e-2 * land.limits.path)) ** (1.0 / 6.0)
-        )
+        if off <= UNTOLD * land.limits.path:
+            return inf
+        return max(1.0, 0.9 * (land.limits.path / off) ** (1.0 / 6.0))
     return max(0.9 * (land.limits.path / off) ** (1.0 / 6.0), 0.1)
 
 
@@ -218,9 +220,27 @@ def time_to_unwind(land: Land, ball: BallRecord, press: float, turn: Vector) -> 
     about = dot(load(ball['spin']), load(ball['normal']))
     if material['pivot_friction'] == 0.0 or abs(about) * r <= LEAST_SPEED:
         return inf
+    if in_micro_bounces(ball, ball['begin']):  # single impacts do not brake it
+        return inf
     drive = dot(load(ball['spin']), turn)
     losing = unwinding(material, press, r, land.ball.inertia) - (drive if about > 0.0 else -drive)
     return abs(about) / losing if losing > 0.0 else inf
+
+
+@kernel
+def longest_step(land: Land, ball: BallRecord, press: float, turn: Vector, change: float) -> float:
+    """Longest step [s] that does not overlook what happens to the ball.
+
+    That is the turn of the normal, the end of micro-bounces or of spin about the normal, and
+    another `change` of friction, at that time from now.
+    """
+    unturned = MOST_NORMAL_TURN / max(length(turn), 1e-3)
+    most = min(unturned, time_to_unwind(land, ball, press, turn))
+    # Never up to a discontinuity, where the method would lose its order.
+    most = max(min(most, APPROACH * change), LEAST_STEP)
+    if in_micro_bounces(ball, ball['begin']):
+        most = min(most, UNBRAKED * unturned, ball['micro_bounce_end'] - ball['begin'])
+    return most
 
 
 @shared
