@@ -38,6 +38,7 @@ from .conservative_advancement import (
     TANGENTIAL,
     TOUCH,
 )
+from .relief_clearance import LOOK, time_near_relief
 from ..geometry import surfaces
 from ..geometry.plane_patch import FLUSH
 from ..geometry.surfaces import Ground
@@ -65,7 +66,6 @@ SAME_DISTANCE = 1e-9  # m: distances that differ less are those of the same poin
 ESCAPE = 1e-9
 # advances after which the bound on the speed over the whole segment is taken for too rough
 MANY_STEPS = 100
-LOOK = 1.0 / 32.0  # work of one query of a part, over that of planning a segment
 # advances after which it pays to test whether one face is nearest to the whole segment
 FEW_STEPS = 4
 MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
@@ -186,6 +186,15 @@ def penetration_exit_time(
         distance, normal = surfaces.nearest(ground, part, place)
         room = surfaces.room_in_plan(ground, add_scaled(place, -distance, normal))
         least = max(least, room / (greatest_speed(ball) + 1e-9))
+    if (
+        len(ground.hole) > 0
+        and surfaces.is_ground(ground, part)
+        and hollow * facing.distance < 0.5
+    ):
+        # The closest point moves faster than the ball's centre only where it is over a hollow.
+        foot = add_scaled(place, -facing.distance, facing.normal)
+        fastest = (greatest_speed(ball) + 1e-9) / (1.0 - hollow * max(facing.distance, 0.0))
+        least = max(least, surfaces.room_in_hole(ground.hole, foot) / fastest)
     if hollow > 0.0:
         return least
     left = until - time
@@ -223,6 +232,44 @@ def touch(
     return time, OPEN
 
 
+@shared
+def relief_impact_time(
+    ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
+) -> tuple[float, bool]:
+    """`time_of_impact` with a smooth surface: by its height below, and near it by its distance."""
+    hollow = surfaces.hollow(ground, part)
+    fastest = greatest_speed(ball)
+    bend = greatest_acceleration(ball)
+    bent = bend + 2.0 * hollow * fastest * fastest
+    time = begin
+    for _ in range(MOST_ADVANCES):
+        time = time_near_relief(ground, part, ball, radius, time, until)
+        if time >= until:
+            return until, False
+        ball['segments_spent'] += LOOK
+        place = position(ball, time)
+        distance, normal = surfaces.nearest(ground, part, place)
+        gap = distance - radius
+        rate = dot(normal, velocity(ball, time))
+        if gap <= TOUCH:
+            facing = Facing(distance, normal, gap, rate, bend, hollow)
+            time, what = touch(ground, part, ball, radius, (time, until), facing)
+            if what == HIT:
+                return time, True
+            if what == CLEAR:
+                continue
+        sure = advancement_over_hollows(hollow, distance, gap, rate, bend, fastest)
+        time += sure
+        if (
+            bent * sure * sure < TOUCH
+            and rate < -PLAIN_APPROACH
+            and time < until
+            and surfaces.touchable(ground, part, position(ball, time))
+        ):
+            return time, True
+    return time, False
+
+
 @kernel
 def time_of_impact(
     ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
@@ -231,6 +278,8 @@ def time_of_impact(
 
     Writes segments_spent.
     """
+    if surfaces.relief(ground, part)[0] > 0.0:
+        return relief_impact_time(ground, part, ball, radius, begin, until)
     cost = LOOK * surfaces.effort(ground, part)
     hollow = surfaces.hollow(ground, part)
     fastest = greatest_speed(ball) if hollow > 0.0 else 0.0

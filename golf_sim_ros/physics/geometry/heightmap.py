@@ -16,8 +16,9 @@
 
 Parts are its cells, the walls around it, and each map as a whole. They are numbered cells first,
 of all maps, row by row; then walls, one for each cell's side on the outline, that go down without
-end; then maps. A map as a whole is the support of a ball where its hollows are wide; it is never
-hit, only cells and walls are. On a map with a narrow hollow a ball rolls from cell to cell.
+end; then maps. A map whose hollows are wide touches a ball at one point: it is hit as a whole, but
+near its outline, and supports the ball as a whole. On a map with a narrow hollow a ball hits cells
+and rolls from cell to cell.
 
 ::
 
@@ -27,13 +28,13 @@ hit, only cells and walls are. On a map with a narrow hollow a ball rolls from c
       heights[0, 0]    o--0-1-2-> x         x least, x greatest
 """
 
-from math import floor
+from math import floor, hypot
 from typing import Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
 from . import surface_protocol
-from .bicubic import bicubic, bounds, cell_at, GRID, nodes
+from .bicubic import bicubic, bounds, cell_at, GRID, nodes, steepest
 from .closest_point import closest_point, curvatures, held, pulls
 from .plane_patch import SAME_HEIGHT
 from .polygon import Outline
@@ -113,6 +114,8 @@ def build(shapes: Sequence[Heightmap], material_number: Mapping[Material, int]) 
                 hollow < WIDE,
                 limits[..., 1].max(),
                 hollow,
+                hypot(1.0, steepest(table, shape.spacing)),
+                limits[..., 3].max(),
             )
         )
         tables.append(table.reshape(-1, 4))
@@ -459,6 +462,20 @@ def _hollow(kind: Maps, part: int) -> float:
     return grid['hollow'] if part == grid['number'] else kind.cells[bounds_of(kind, part), 2]
 
 
+@surface_protocol.relief.register(Maps)
+def _relief(kind: Maps, part: int) -> tuple[float, float]:
+    grid = kind.grids[grid_of(kind, part)]
+    return (grid['steep'], grid['bend']) if part == grid['number'] else (0.0, 0.0)
+
+
+@surface_protocol.height_over.register(Maps)
+def _height_over(kind: Maps, part: int, point: Vector, velocity: Vector) -> tuple[float, float]:
+    grid = kind.grids[grid_of(kind, part)]
+    x, y, z = from_origin(grid, point)
+    at = bicubic(kind.nodes, grid, x, y)
+    return z - at[0], velocity[2] - at[1] * velocity[0] - at[2] * velocity[1]
+
+
 @surface_protocol.effort.register(Maps)
 def _effort(kind: Maps, part: int) -> int:
     if part >= len(kind.cells):
@@ -504,7 +521,11 @@ def _top(kind: Maps, x: float, y: float) -> tuple[float, int]:
 def _next_part(kind: Maps, part: int, low: Vector, high: Vector) -> int:
     for i in range(len(kind.grids)):
         grid = kind.grids[i]
-        if part < grid['first_cell'] + grid['nx'] * grid['ny'] and reached(grid, low, high):
+        if (
+            part < grid['first_cell'] + grid['nx'] * grid['ny']
+            and reached(grid, low, high)
+            and not is_hit_whole(grid, low, high)
+        ):
             found = next_cell(kind, grid, part, low, high)
             if found >= 0:
                 return found
@@ -514,6 +535,14 @@ def _next_part(kind: Maps, part: int, low: Vector, high: Vector) -> int:
             found = next_wall(kind, grid, part, low, high)
             if found >= 0:
                 return found
+    for i in range(len(kind.grids)):
+        grid = kind.grids[i]
+        if (
+            part <= grid['number']
+            and is_hit_whole(grid, low, high)
+            and next_cell(kind, grid, 0, low, high) >= 0
+        ):
+            return grid['number']
     return surface_protocol.parts(kind)
 
 
@@ -528,6 +557,21 @@ def reached(grid: StructRecord, low: Vector, high: Vector) -> bool:
         and low[0] <= x + grid['nx'] * grid['spacing']
         and high[1] >= y
         and low[1] <= y + grid['ny'] * grid['spacing']
+    )
+
+
+@kernel
+def is_hit_whole(grid: StructRecord, low: Vector, high: Vector) -> bool:
+    """Whether the map is one part to a ball in the box: its hollows are wide, its outline far."""
+    x = grid['origin'][0] + SAME_HEIGHT
+    y = grid['origin'][1] + SAME_HEIGHT
+    return (
+        grid['gentle'] != 0
+        and low[2] <= grid['high']
+        and low[0] > x
+        and high[0] < x + grid['nx'] * grid['spacing'] - 2.0 * SAME_HEIGHT
+        and low[1] > y
+        and high[1] < y + grid['ny'] * grid['spacing'] - 2.0 * SAME_HEIGHT
     )
 
 

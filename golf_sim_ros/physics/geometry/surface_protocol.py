@@ -81,6 +81,24 @@ def hollow(kind: KindRecord, part: int) -> float:
 
 
 @generic
+def relief(kind: KindRecord, part: int) -> tuple[float, float]:
+    """Bounds where `part` is a smooth surface over all of the plan, else zeros.
+
+    The greatest length of its upward normal (-dz/dx, -dz/dy, 1), and the greatest second derivative
+    [1/m] of its height in any direction.
+    """
+    return 0.0, 0.0
+
+
+@generic
+def height_over(
+    kind: KindRecord, part: int, point: Vector, velocity: Vector
+) -> tuple[float, float]:
+    """Height [m] of `point` straight over `part`, which has a `relief`, and its rate [m/s]."""
+    return 1e300, 0.0
+
+
+@generic
 def effort(kind: KindRecord, part: int) -> int:
     """Work of finding the point of `part` nearest to a ball near it, over that of a plane."""
     return 1

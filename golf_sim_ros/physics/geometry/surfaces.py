@@ -118,6 +118,8 @@ nearest_turning = of_its_kind(
     surface_protocol.nearest_turning, (1e300, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
 )
 hollow = of_its_kind(surface_protocol.hollow, 0.0)
+relief = of_its_kind(surface_protocol.relief, (0.0, 0.0))
+height_over = of_its_kind(surface_protocol.height_over, (1e300, 0.0))
 effort = of_its_kind(surface_protocol.effort, 1)
 flat_under = of_its_kind(surface_protocol.flat_under, False)
 in_plane = of_its_kind(surface_protocol.in_plane, False)
@@ -196,6 +198,18 @@ def in_hole(hole: np.ndarray, place: Vector) -> bool:
     return (
         dx * dx + dy * dy < hole[2] * hole[2]
         and hole[3] - RIM_REACH < place[2] < hole[4] + RIM_REACH
+    )
+
+
+@kernel
+def room_in_hole(hole: np.ndarray, place: Vector) -> float:
+    """Way [m] that the ground at `place`, cut away by the hole, is at least from what is not."""
+    dx = place[0] - hole[0]
+    dy = place[1] - hole[1]
+    return min(
+        hole[2] - sqrt(dx * dx + dy * dy),
+        place[2] - hole[3] + RIM_REACH,
+        hole[4] + RIM_REACH - place[2],
     )
 
 
