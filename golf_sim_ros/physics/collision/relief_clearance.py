@@ -16,8 +16,8 @@
 
 That height costs one look where the closest point takes a search. Where the surface's upward
 normal (-dz/dx, -dz/dy, 1) is at most as long as S, a point at a height h over it is at least h / S
-away from it. Along a path of acceleration at most A and speed at most v, over second derivatives of
-at most K, the height's rate falls by at most S A + K v^2 a second, and the height by S v.
+away from it. Along a path of acceleration at most A and speed at most v, over second derivatives
+of at most K, the height's rate falls by at most S A + K v^2 a second, and the height by S v.
 """
 
 from .conservative_advancement import advancement_bound, MOST_ADVANCES

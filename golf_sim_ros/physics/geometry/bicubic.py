@@ -24,7 +24,7 @@ from math import floor
 
 import numpy as np
 
-from ..jit import kernel, shared
+from ..jit import kernel
 from ..kernel_types import StructRecord, SurfacePoint, Vector
 
 # Rows of cells that are bounded at once: on a map of 1000 x 1000 those take some 50 MB.
@@ -159,7 +159,7 @@ def cell_at(grid: StructRecord, x: float, y: float) -> tuple[int, int]:
     return column, row
 
 
-@shared
+@kernel
 def bicubic(table: np.ndarray, grid: StructRecord, x: float, y: float) -> SurfacePoint:
     """Height at `x`, `y` [m] from the grid's origin, its derivatives by x, y, xx, xy and yy."""
     size = grid['spacing']

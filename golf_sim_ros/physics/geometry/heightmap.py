@@ -35,7 +35,7 @@ import numpy as np
 
 from . import surface_protocol
 from .bicubic import bicubic, bounds, cell_at, GRID, nodes, steepest
-from .closest_point import closest_point, curvatures, held, pulls
+from .closest_point import closest_point, curvatures, descend, held, pulls
 from .plane_patch import SAME_HEIGHT
 from .polygon import Outline
 from ..jit import kernel, shared
@@ -237,19 +237,25 @@ def rectangle(kind: Maps, grid: StructRecord, part: int) -> Rectangle:
 
 @shared
 def place_under(
-    kind: Maps, grid: StructRecord, part: int, point: Vector
+    kind: Maps, grid: StructRecord, part: int, box: Rectangle, point: Vector
 ) -> tuple[float, float, SurfacePoint]:
-    """Closest point of the surface of `part`, of a wall's upper edge, and `bicubic` there."""
+    """Closest point of the surface of `part`, of a wall's upper edge, and `bicubic` there.
+
+    `box` is the part's rectangle.
+    """
+    if part == grid['number']:  # one minimum, for its hollows are wide
+        x, y = min(max(point[0], box[0]), box[2]), min(max(point[1], box[1]), box[3])
+        return descend(kind.nodes, grid, box, x, y, point)
     # Curvature times height over or under the cell tells `closest_point` whether the minimum is
-    # unique. On a map as a whole it is, for its hollows are wide.
+    # unique.
     bend = 0.0
     if part < len(kind.cells):
         cell = kind.cells[part]
         bend = cell[3] * max(point[2] - cell[0], cell[1] - point[2])
-    elif part < grid['number']:
+    else:
         cell = kind.cells[bounds_of(kind, part)]
         bend = cell[3] * max(point[2] - cell[0], cell[1] - point[2])
-    return closest_point(kind.nodes, grid, rectangle(kind, grid, part), bend, point)
+    return closest_point(kind.nodes, grid, box, bend, point)
 
 
 @kernel
@@ -321,8 +327,8 @@ def foot_under(kind: Maps, grid: StructRecord, part: int, local: Vector) -> Foot
     Beyond a wall a point is not below, even if it is nearest to the back of ground that falls away
     from there.
     """
-    x, y, at = place_under(kind, grid, part, local)
     box = rectangle(kind, grid, part)
+    x, y, at = place_under(kind, grid, part, box, local)
     if is_within(box, x, y):
         offset = (local[0] - x, local[1] - y, local[2] - at[0])
         below = dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
@@ -421,8 +427,8 @@ def _touchable(kind: Maps, part: int, point: Vector) -> bool:
         return beside_wall(kind, grid, part, local)[0]
     if part == grid['number']:
         return True
-    x, y, at = place_under(kind, grid, part, local)
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    x0, y0, x1, y1 = box = rectangle(kind, grid, part)
+    x, y, at = place_under(kind, grid, part, box, local)
     gx, gy = pulls(local, x, y, at)
     free = ON_SEAM * length((local[0] - x, local[1] - y, local[2] - at[0]))
     column, row = (

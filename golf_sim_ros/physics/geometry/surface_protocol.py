@@ -84,8 +84,8 @@ def hollow(kind: KindRecord, part: int) -> float:
 def relief(kind: KindRecord, part: int) -> tuple[float, float]:
     """Bounds where `part` is a smooth surface over all of the plan, else zeros.
 
-    The greatest length of its upward normal (-dz/dx, -dz/dy, 1), and the greatest second derivative
-    [1/m] of its height in any direction.
+    The greatest length of its upward normal (-dz/dx, -dz/dy, 1), and the greatest second
+    derivative [1/m] of its height in any direction.
     """
     return 0.0, 0.0
 

@@ -39,13 +39,18 @@ RIM_REACH = 0.02  # m: within this of the height of its rim the hole cuts whatev
 BORDER = np.dtype(
     [('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8')], align=True
 )
+# Borders `first` to before `last`, of one outline, lie between `low` and `high` in plan.
+BORDER_LINE = np.dtype(
+    [('first', 'i8'), ('last', 'i8'), ('low', 'f8', 2), ('high', 'f8', 2)], align=True
+)
 
 
 class Ground(NamedTuple):
     """All that a ball can touch.
 
     ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
-    surface or material may begin, of a circle its centre and ``radius``; ``zones`` are polygons
+    surface or material may begin, of a circle its centre and ``radius``, and ``border_lines`` the
+    outlines that they belong to; ``zones`` are polygons
     painted with ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y,
     radius, least and greatest height of the rim, height of the bottom; ``waters`` lie over it all;
     all ground and water but tilted planes lies between ``lowest`` and ``highest``.
@@ -53,6 +58,7 @@ class Ground(NamedTuple):
 
     kinds: tuple[KindRecord, ...]
     borders: np.ndarray
+    border_lines: np.ndarray
     zones: Regions
     zone_materials: np.ndarray
     bounds: Polygons
