@@ -53,7 +53,7 @@ LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
 # Along the ground, where a ball must be slow to stop, errors count more; and coarser steps save
 # nothing, for events and the ground's curvature end them.
 ON_GROUND = 0.2  # of the tolerance
-MOST_ON_GROUND = 1e-5  # m
+MOST_ON_GROUND = 1e-3  # m
 LEAST_LEFT = 0.1  # s
 
 
