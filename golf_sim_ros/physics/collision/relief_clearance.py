@@ -46,7 +46,7 @@ def time_near_relief(
     time = begin
     for _ in range(MOST_ADVANCES):
         ball['segments_spent'] += LOOK
-        height, rate = surfaces.height_over(
+        height, rate = surfaces.height_above(
             ground, part, position(ball, time), velocity(ball, time)
         )
         if height <= near:

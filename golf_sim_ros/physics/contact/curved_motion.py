@@ -36,6 +36,8 @@ from ..state.ball import moves, ROLL, SLIDE
 from ..state.transitions import begin_rolling, begin_sliding, take_off
 from ..trajectory.equations_of_motion import (
     growth_rate,
+    keep_surface,
+    kept_surface,
     LEAST_SPEED,
     material_under,
     rates_on,
@@ -49,7 +51,7 @@ from ..trajectory.segment import fit_segment, position
 MOST_NORMAL_TURN = 0.1  # rad by which the normal may turn in a step
 # of that in micro-bounces: nothing brakes, so an error between a step's ends shows as energy
 UNBRAKED = 0.5
-FIRST_STEP = 0.02  # s
+FIRST_STEP = 0.05  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s: a shorter step's end is not projected in position
 CORRECTIONS = 12  # attempts at a step, each shorter than the last
@@ -104,7 +106,7 @@ def curved_segment(
     store_stage(ball, 0, v, force, torque)
     change = time_to_change(land, ball, force, press)
     wanted = ball['step'] if ball['step'] > 0.0 and ball['phase'] == phase else FIRST_STEP
-    asked = h = min(wanted, longest_step(land, ball, press, surface[2], change))
+    asked = h = min(wanted, longest_contact_step(land, ball, press, surface[2], change))
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
     cost = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
     for _ in range(CORRECTIONS):
@@ -237,7 +239,9 @@ def time_to_unwind(land: Land, ball: BallRecord, press: float, turn: Vector) -> 
 
 
 @kernel
-def longest_step(land: Land, ball: BallRecord, press: float, turn: Vector, change: float) -> float:
+def longest_contact_step(
+    land: Land, ball: BallRecord, press: float, turn: Vector, change: float
+) -> float:
     """Longest step [s] that does not overlook what happens to the ball.
 
     That is the turn of the normal, the end of micro-bounces or of spin about the normal, and
@@ -347,7 +351,7 @@ def project_to_ground(land: Land, ball: BallRecord) -> tuple[float, Vector]:
     r = land.ball.radius
     x0 = load(ball['position'])
     way = load(ball['position_coefficients'][5])
-    distance, normal = supporting_surface(land, ball, add_scaled(x0, 1.0, way))
+    distance, normal = kept_surface(ball)  # of the step's last stage
     if ball['span'] > SHORT_STEP:
         way = add_scaled(way, r - distance, normal)
     end = add_scaled(x0, 1.0, way)
@@ -358,6 +362,7 @@ def project_to_ground(land: Land, ball: BallRecord) -> tuple[float, Vector]:
         spin = add_scaled(scale(1.0 / r, cross(normal, velocity)), dot(spin, normal), normal)
     store(ball['spin_coefficients'][3], spin)
     surface = turning_surface(land, ball, end, velocity)
+    keep_surface(ball, surface[0], surface[1])
     force, torque, press, _ = rates_on(land, ball, surface, (end, velocity, spin))
     first = ball['stages'][0]
     fit_segment(

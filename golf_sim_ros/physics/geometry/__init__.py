@@ -28,7 +28,7 @@ from typing import Any, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from .polygon import BESIDE, Circle, Outline, polygons, regions, sides
+from .polygon import Circle, Outline, OUTSIDE, polygons, regions, sides
 from .surfaces import BORDER, BORDER_LINE, Ground
 from .water_surface import Water, waters
 from .zone import Zone, zones_of
@@ -131,5 +131,5 @@ def _borders(outlines: Iterable[Union[Outline, Circle]]) -> tuple[np.ndarray, np
             if size > 1e-9:  # an upright patch has no width in plan
                 rows.append((start, (end - start) / size, size, 0.0))
         low, high = np.min(outline, 0), np.max(outline, 0)
-        lines.append((first, len(rows), low - BESIDE, high + BESIDE))
+        lines.append((first, len(rows), low - OUTSIDE, high + OUTSIDE))
     return np.array(rows, BORDER), np.array(lines, BORDER_LINE)

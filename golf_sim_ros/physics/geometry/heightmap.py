@@ -235,7 +235,7 @@ def rectangle(kind: Maps, grid: StructRecord, part: int) -> Rectangle:
     )
 
 
-@shared
+@kernel
 def place_under(
     kind: Maps, grid: StructRecord, part: int, box: Rectangle, point: Vector
 ) -> tuple[float, float, SurfacePoint]:
@@ -320,7 +320,7 @@ def is_over_map(grid: StructRecord, local: Vector) -> bool:
     return 0.0 <= local[0] <= grid['nx'] * size and 0.0 <= local[1] <= grid['ny'] * size
 
 
-@shared
+@kernel
 def foot_under(kind: Maps, grid: StructRecord, part: int, local: Vector) -> Foot:
     """Closest point of `part`, a cell, a map, or a wall's upper edge.
 
@@ -474,8 +474,8 @@ def _relief(kind: Maps, part: int) -> tuple[float, float]:
     return (grid['steep'], grid['bend']) if part == grid['number'] else (0.0, 0.0)
 
 
-@surface_protocol.height_over.register(Maps)
-def _height_over(kind: Maps, part: int, point: Vector, velocity: Vector) -> tuple[float, float]:
+@surface_protocol.height_above.register(Maps)
+def _height_above(kind: Maps, part: int, point: Vector, velocity: Vector) -> tuple[float, float]:
     grid = kind.grids[grid_of(kind, part)]
     x, y, z = from_origin(grid, point)
     at = bicubic(kind.nodes, grid, x, y)

@@ -25,7 +25,7 @@ from ..jit import kernel
 Outline = Sequence[Sequence[float]]
 
 
-BESIDE = 1e-6  # m: no rounding takes a point so far outside of all corners for one inside
+OUTSIDE = 1e-6  # m: no rounding takes a point so far outside of all corners for one inside
 
 
 class Polygons(NamedTuple):
@@ -62,7 +62,9 @@ def polygons(outlines: Sequence[Outline]) -> Polygons:
     """`Polygons` of sequences of (x, y)."""
     first = np.cumsum([0] + [len(outline) for outline in outlines]).astype(np.int64)
     corners = np.array([c for outline in outlines for c in outline], float).reshape(-1, 2)
-    boxes = [(*np.min(outline, 0) - BESIDE, *np.max(outline, 0) + BESIDE) for outline in outlines]
+    boxes = [
+        (*np.min(outline, 0) - OUTSIDE, *np.max(outline, 0) + OUTSIDE) for outline in outlines
+    ]
     return Polygons(corners, first, np.array(boxes, float).reshape(-1, 4))
 
 

@@ -91,7 +91,7 @@ def relief(kind: KindRecord, part: int) -> tuple[float, float]:
 
 
 @generic
-def height_over(
+def height_above(
     kind: KindRecord, part: int, point: Vector, velocity: Vector
 ) -> tuple[float, float]:
     """Height [m] of `point` straight over `part`, which has a `relief`, and its rate [m/s]."""

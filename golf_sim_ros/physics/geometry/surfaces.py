@@ -125,7 +125,7 @@ nearest_turning = of_its_kind(
 )
 hollow = of_its_kind(surface_protocol.hollow, 0.0)
 relief = of_its_kind(surface_protocol.relief, (0.0, 0.0))
-height_over = of_its_kind(surface_protocol.height_over, (1e300, 0.0))
+height_above = of_its_kind(surface_protocol.height_above, (1e300, 0.0))
 effort = of_its_kind(surface_protocol.effort, 1)
 flat_under = of_its_kind(surface_protocol.flat_under, False)
 in_plane = of_its_kind(surface_protocol.in_plane, False)

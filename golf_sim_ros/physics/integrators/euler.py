@@ -20,6 +20,7 @@ from . import runge_kutta
 from ..kernel_types import BallRecord, ModelRecord
 from ..mechanics.vector import add_scaled, load, scale, store
 from ..state.ball import FLIGHT, STEP_END
+from ..trajectory.equations_of_motion import keep_surface, supporting_surface
 from ..trajectory.segment import fit_segment
 
 
@@ -47,6 +48,10 @@ def _step(method: SemiImplicitEuler, model: ModelRecord, ball: BallRecord) -> No
     # A straight line at the new velocity, as such an engine moves the ball.
     fit_segment(ball, scale(h, v1), (v1, v1), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), (torque, torque))
     ball['ending'] = STEP_END
+    if ball['phase'] != FLIGHT:
+        end = add_scaled(load(ball['position']), h, v1)
+        distance, normal = supporting_surface(model.land, ball, end)
+        keep_surface(ball, distance, normal)
 
 
 METHOD = SemiImplicitEuler

@@ -27,6 +27,7 @@ from ..mechanics.vector import (
     length,
     load,
     scale,
+    store,
     sub,
     tangential,
     unit,
@@ -35,6 +36,7 @@ from ..mechanics.vector import (
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
+KEPT = 7  # row of ``stages`` that no stage is in
 STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is only stiff
 
 # Distance [m] of a place from the surface that supports a ball, the normal there, and its rate of
@@ -156,11 +158,27 @@ def turning_surface(
 
 
 @kernel
+def keep_surface(ball: BallRecord, distance: float, normal: Vector) -> None:
+    """Keep what is under the ball at the latest stage, or at the segment's end. Writes stages."""
+    row = ball['stages'][KEPT]
+    store(row[0:3], normal)
+    row[3] = distance
+
+
+@kernel
+def kept_surface(ball: BallRecord) -> tuple[float, Vector]:
+    """`supporting_surface` that `keep_surface` has kept."""
+    row = ball['stages'][KEPT]
+    return row[3], load(row[0:3])
+
+
+@kernel
 def contact_rates(
     land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
 ) -> tuple[Vector, Vector, float, float]:
-    """`rates_on` the surface that supports the ball."""
+    """`rates_on` the surface that supports the ball, which is kept. Writes stages."""
     surface = turning_surface(land, ball, place, velocity)
+    keep_surface(ball, surface[0], surface[1])
     return rates_on(land, ball, surface, (place, velocity, spin))
 
 
