@@ -50,9 +50,8 @@ MOST_GROWTH = 4.0  # from one step to the next
 # hundreds.
 STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
-# Along the ground, where a ball must be slow to stop, errors count more; and coarser steps save
-# nothing, for events and the ground's curvature end them.
-ON_GROUND = 0.2  # of the tolerance
+# Along the ground, where a ball must be slow to stop, errors count more.
+ON_GROUND = 1.0 / 15.0  # of the tolerance
 MOST_ON_GROUND = 1e-3  # m
 LEAST_LEFT = 0.1  # s
 
