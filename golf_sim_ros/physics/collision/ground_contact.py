@@ -236,7 +236,10 @@ def touch(
 def relief_impact_time(
     ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
 ) -> tuple[float, bool]:
-    """`time_of_impact` with a smooth surface: by its height below, and near it by its distance."""
+    """`time_of_impact` with a smooth surface: by its height below, and near it by its distance.
+
+    Writes segments_spent.
+    """
     hollow = surfaces.hollow(ground, part)
     fastest = greatest_speed(ball)
     bend = greatest_acceleration(ball)

@@ -346,7 +346,7 @@ def project_to_ground(land: Land, ball: BallRecord) -> tuple[float, Vector]:
     """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
     And the normal there. The position is not projected after the shortest of steps: its rounding
-    error far from the origin, 5e-14 m, over a nanosecond is speed. Writes curve.
+    error far from the origin, 5e-14 m, over a nanosecond is speed. Writes curve, stages.
     """
     r = land.ball.radius
     x0 = load(ball['position'])

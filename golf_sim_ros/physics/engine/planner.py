@@ -257,7 +257,7 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
 def smooth_surface_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Plan a segment of a ball that a smooth surface supports as a whole: none of it is flat.
 
-    Writes as `contact_segment` does.
+    Writes motion, phase, contact, on_flat, curve, ending, integrator, segments_spent.
     """
     land = model.land
     ball['on_flat'] = 0

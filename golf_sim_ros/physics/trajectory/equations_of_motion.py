@@ -48,7 +48,10 @@ TurningSurface = tuple[float, Vector, Vector]
 def rates(
     model: ModelRecord, ball: BallRecord, position: Vector, velocity: Vector, spin: Vector
 ) -> tuple[Vector, Vector]:
-    """Acceleration and angular acceleration of a ball, in flight, under water or in contact."""
+    """Acceleration and angular acceleration of a ball, in flight, under water or in contact.
+
+    Writes stages.
+    """
     if ball['water'] > 0:
         return sinking(model.effects, position, velocity), ZERO
     if ball['phase'] == FLIGHT:
