@@ -250,7 +250,8 @@ def test_grass_brakes_the_centre_of_a_ball_that_slides(accuracy, speed, backspin
     way = solve_ivp(rates, (0.0, 60.0), start, events=slip, rtol=1e-12, atol=1e-12)
     expected = way.y[0, -1] + rolled_out(way.y[1, -1])
     found = rest_on(course, (speed, 0, 0), (0, -backspin, 0), accuracy)
-    assert abs(found[0] - expected) < (1e-6 if accuracy == 'reference' else 1e-4)
+    within = {'reference': 1e-6, 'standard': 1e-4, 'sketch': 5e-3}  # sketch's paths err by 0.1 mm
+    assert abs(found[0] - expected) < within[accuracy]
 
 
 @pytest.mark.parametrize('accuracy', ACCURACY)
@@ -276,3 +277,18 @@ def test_grass_on_a_slope_is_the_same_ode(accuracy):
     found = rest_on(course, velocity, np.cross(up, velocity) / course.ball.radius, accuracy)
     expected = way.y[0, -1] * across + way.y[1, -1] * uphill
     assert np.linalg.norm(found - expected) < (1e-7 if accuracy == 'reference' else 2e-4)
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+def test_a_ball_that_slides_at_the_end_of_its_slip_is_not_driven_on(accuracy):
+    # Turf brakes a fast ball's centre harder than friction can end its slip.
+    course = Course((Plane(material=material('fairway')),))
+    found = simulate_many(
+        course,
+        [(26.376009946476362, 7.852291146144746, 1.6690325473654817)],
+        [(111.61550899744755, -374.9188256911622, 33.50852475747029)],
+        accuracy=accuracy,
+        engine='python',
+    )
+    assert found['status'][0] == 'at_rest'
+    assert found['total'][0] == pytest.approx(36.06, abs=0.1)

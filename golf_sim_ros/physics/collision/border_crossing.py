@@ -14,6 +14,8 @@
 
 """Time at which a ball in contact crosses a border in plan, of a surface or of a zone."""
 
+import numpy as np
+
 from .conservative_advancement import advancement_bound, MOST_ADVANCES, TOUCH
 from ..geometry import surfaces
 from ..geometry.surfaces import Ground
@@ -42,25 +44,23 @@ def first_border_crossing(
     bend = greatest_acceleration(ball)
     x = extent_along(ball, 0)
     y = extent_along(ball, 1)
-    for i in range(len(ground.borders)):
-        border = ground.borders[i]
-        end_x = border['start'][0] + border['length'] * border['direction'][0]
-        end_y = border['start'][1] + border['length'] * border['direction'][1]
-        # From the centre to the foot, by the normal at the segment's start.
-        dx = -radius * ball['normal'][0]
-        dy = -radius * ball['normal'][1]
-        room = border['radius']
-        if (
-            x[1] + dx < min(border['start'][0], end_x) - room
-            or x[0] + dx > max(border['start'][0], end_x) + room
-            or y[1] + dy < min(border['start'][1], end_y) - room
-            or y[0] + dy > max(border['start'][1], end_y) + room
-        ):
+    # From the centre to the foot, by the normal at the segment's start.
+    dx = -radius * ball['normal'][0]
+    dy = -radius * ball['normal'][1]
+    low = (x[0] + dx, y[0] + dy)
+    high = (x[1] + dx, y[1] + dy)
+    for k in range(len(ground.border_lines)):
+        line = ground.border_lines[k]
+        if not meets_in_plan(low, high, line['low'], line['high']):
             continue
-        time = border_crossing_time(border, ball, (dx, dy, 0.0), bend, best)
-        if time < best:
-            best = time
-            crosses = True
+        for i in range(line['first'], line['last']):
+            border = ground.borders[i]
+            if is_beside(border, low, high):
+                continue
+            time = border_crossing_time(border, ball, (dx, dy, 0.0), bend, best)
+            if time < best:
+                best = time
+                crosses = True
     for i in range(surfaces.limits(ground, ball['support'])):
         point, inward = surfaces.limit(ground, ball['support'], i)
         time = limit_crossing_time(
@@ -70,6 +70,30 @@ def first_border_crossing(
             best = time
             crosses = True
     return best, crosses
+
+
+@kernel
+def meets_in_plan(
+    low: tuple[float, float], high: tuple[float, float], least: np.ndarray, greatest: np.ndarray
+) -> bool:
+    """Whether a rectangle in plan from `low` to `high` overlaps one from `least` to `greatest`."""
+    return not (
+        high[0] < least[0] or low[0] > greatest[0] or high[1] < least[1] or low[1] > greatest[1]
+    )
+
+
+@kernel
+def is_beside(border: StructRecord, low: tuple[float, float], high: tuple[float, float]) -> bool:
+    """Whether the rectangle in plan from `low` to `high` lies beside that around a border."""
+    end_x = border['start'][0] + border['length'] * border['direction'][0]
+    end_y = border['start'][1] + border['length'] * border['direction'][1]
+    room = border['radius']
+    return (
+        high[0] < min(border['start'][0], end_x) - room
+        or low[0] > max(border['start'][0], end_x) + room
+        or high[1] < min(border['start'][1], end_y) - room
+        or low[1] > max(border['start'][1], end_y) + room
+    )
 
 
 @kernel

@@ -24,6 +24,8 @@ Where the swept box of a segment overlaps many parts, the segment is tested stre
 each halved until its box overlaps few: only parts near the path are tested.
 """
 
+from typing import NamedTuple
+
 from .conservative_advancement import (
     advancement_bound,
     is_long,
@@ -36,12 +38,13 @@ from .conservative_advancement import (
     TANGENTIAL,
     TOUCH,
 )
+from .relief_clearance import LOOK, time_near_relief
 from ..geometry import surfaces
 from ..geometry.plane_patch import FLUSH
 from ..geometry.surfaces import Ground
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Box, Heights, Vector
-from ..mechanics.vector import add_scaled, dot, length, load
+from ..mechanics.vector import add_scaled, dot, length, load, ZERO
 from ..state.ball import NO_PART
 from ..trajectory.segment import (
     acceleration_bounds,
@@ -63,7 +66,6 @@ SAME_DISTANCE = 1e-9  # m: distances that differ less are those of the same poin
 ESCAPE = 1e-9
 # advances after which the bound on the speed over the whole segment is taken for too rough
 MANY_STEPS = 100
-LOOK = 1.0 / 32.0  # work of one query of a part, over that of planning a segment
 # advances after which it pays to test whether one face is nearest to the whole segment
 FEW_STEPS = 4
 MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
@@ -72,6 +74,21 @@ NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 # of a gap of zero: what comes next is open, it is clear for a while, or hit
 OPEN, CLEAR, HIT = range(3)
+
+
+class Facing(NamedTuple):
+    """How a ball faces a part at one time of its segment.
+
+    ``distance`` of its centre, ``normal`` of the part, ``gap``, its ``rate``, by how much that
+    falls a second, ``bend``, and the curvature of hollows.
+    """
+
+    distance: float
+    normal: Vector
+    gap: float
+    rate: float
+    bend: float
+    hollow: float
 
 
 @kernel
@@ -89,15 +106,15 @@ def sees_one_normal(ground: Ground, part: int, ball: BallRecord, normal: Vector)
 @kernel
 def plane_gap_bounds(
     ground: Ground, part: int, ball: BallRecord, radius: float
-) -> tuple[Heights, float, float]:
+) -> tuple[Heights, float, float, Vector]:
     """Bernstein coefficients of the gap to `part` of one normal.
 
-    Also bounds on how fast its rate falls, and rises.
+    Also bounds on how fast its rate falls, and rises, and that normal.
     """
     distance, normal = surfaces.nearest(ground, part, control_point(ball, 0))
     over = plane_gap_coefficients(ball, normal, distance - radius)
     falls, rises = acceleration_bounds(over, ball['span'])
-    return over, falls, rises
+    return over, falls, rises, normal
 
 
 @kernel
@@ -151,17 +168,17 @@ def penetration_exit_time(
     ball: BallRecord,
     radius: float,
     when: tuple[float, float],
-    facing: tuple[float, float, float, float],
+    facing: Facing,
 ) -> float:
     """Safe time [s] for which a ball in a cut of `part` has not left it yet.
 
     Or a ball behind a one-sided sheet. There the gap is negative, and no impact. Along a straight
     line a convex gap stays below its chord, and the path strays from that line by at most
     A s^2 / 2. A cut reaches up to its outline, however near to the plane the ball moves. `when`
-    and `facing` are as in `touch`.
+    is as in `touch`.
     """
     time, until = when
-    gap, _, bend, hollow = facing
+    gap, bend, hollow = facing.gap, facing.bend, facing.hollow
     place = position(ball, time)
     way = velocity(ball, time)
     least = max(-gap, 1e-6) / (length(way) + bend * until + 1e-3)
@@ -169,6 +186,15 @@ def penetration_exit_time(
         distance, normal = surfaces.nearest(ground, part, place)
         room = surfaces.room_in_plan(ground, add_scaled(place, -distance, normal))
         least = max(least, room / (greatest_speed(ball) + 1e-9))
+    if (
+        len(ground.hole) > 0
+        and surfaces.is_ground(ground, part)
+        and hollow * facing.distance < 0.5
+    ):
+        # The closest point moves faster than the ball's centre only where it is over a hollow.
+        foot = add_scaled(place, -facing.distance, facing.normal)
+        fastest = (greatest_speed(ball) + 1e-9) / (1.0 - hollow * max(facing.distance, 0.0))
+        least = max(least, surfaces.room_in_hole(ground.hole, foot) / fastest)
     if hollow > 0.0:
         return least
     left = until - time
@@ -183,17 +209,17 @@ def touch(
     ball: BallRecord,
     radius: float,
     when: tuple[float, float],
-    facing: tuple[float, float, float, float],
+    facing: Facing,
 ) -> tuple[float, int]:
     """Tell what a gap to `part` of zero comes to: OPEN, CLEAR until a later time, or HIT.
 
     The time comes first, the later one or now. `when`: the time of it, and that up to which it is
-    asked; `facing`: the gap, its rate, by how much that falls a second, and the curvature of
-    hollows.
+    asked.
     """
     time, until = when
-    rate = facing[1]
-    if not surfaces.touchable(ground, part, position(ball, time)):
+    rate = facing.rate
+    place = position(ball, time)
+    if not surfaces.touchable_at(ground, part, place, facing.distance, facing.normal):
         return time + penetration_exit_time(ground, part, ball, radius, when, facing), CLEAR
     # An edge's place is exact to FLUSH, so its normal to FLUSH over the radius: a rate within that
     # may be of either sign, and `separation_time` tells which.
@@ -206,6 +232,47 @@ def touch(
     return time, OPEN
 
 
+@shared
+def relief_impact_time(
+    ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
+) -> tuple[float, bool]:
+    """`time_of_impact` with a smooth surface: by its height below, and near it by its distance.
+
+    Writes segments_spent.
+    """
+    hollow = surfaces.hollow(ground, part)
+    fastest = greatest_speed(ball)
+    bend = greatest_acceleration(ball)
+    bent = bend + 2.0 * hollow * fastest * fastest
+    time = begin
+    for _ in range(MOST_ADVANCES):
+        time = time_near_relief(ground, part, ball, radius, time, until)
+        if time >= until:
+            return until, False
+        ball['segments_spent'] += LOOK
+        place = position(ball, time)
+        distance, normal = surfaces.nearest(ground, part, place)
+        gap = distance - radius
+        rate = dot(normal, velocity(ball, time))
+        if gap <= TOUCH:
+            facing = Facing(distance, normal, gap, rate, bend, hollow)
+            time, what = touch(ground, part, ball, radius, (time, until), facing)
+            if what == HIT:
+                return time, True
+            if what == CLEAR:
+                continue
+        sure = advancement_over_hollows(hollow, distance, gap, rate, bend, fastest)
+        time += sure
+        if (
+            bent * sure * sure < TOUCH
+            and rate < -PLAIN_APPROACH
+            and time < until
+            and surfaces.touchable(ground, part, position(ball, time))
+        ):
+            return time, True
+    return time, False
+
+
 @kernel
 def time_of_impact(
     ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
@@ -214,14 +281,17 @@ def time_of_impact(
 
     Writes segments_spent.
     """
+    if surfaces.relief(ground, part)[0] > 0.0:
+        return relief_impact_time(ground, part, ball, radius, begin, until)
     cost = LOOK * surfaces.effort(ground, part)
     hollow = surfaces.hollow(ground, part)
     fastest = greatest_speed(ball) if hollow > 0.0 else 0.0
     span = ball['span']
     level = surfaces.is_plane(ground, part)
     rises = NEVER
+    distance, normal = 0.0, ZERO
     if level:
-        over, bend, rises = plane_gap_bounds(ground, part, ball, radius)
+        over, bend, rises, normal = plane_gap_bounds(ground, part, ball, radius)
     else:
         over = NO_HEIGHTS
         bend = greatest_acceleration(ball)
@@ -230,14 +300,14 @@ def time_of_impact(
         ball['segments_spent'] += cost
         if level:
             gap, rate = plane_gap(over, span, time)
+            distance = gap + radius
         else:
             distance, normal = surfaces.nearest(ground, part, position(ball, time))
             gap = distance - radius
             rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
-            time, what = touch(
-                ground, part, ball, radius, (time, until), (gap, rate, bend, hollow)
-            )
+            facing = Facing(distance, normal, gap, rate, bend, hollow)
+            time, what = touch(ground, part, ball, radius, (time, until), facing)
             if what == HIT:
                 return time, True
             if what == CLEAR:
@@ -252,7 +322,7 @@ def time_of_impact(
         else:
             if step == FEW_STEPS and not level and sees_one_normal(ground, part, ball, normal):
                 level = True
-                over, bend, rises = plane_gap_bounds(ground, part, ball, radius)
+                over, bend, rises, normal = plane_gap_bounds(ground, part, ball, radius)
             sure = advancement_bound(gap, rate, bend)
             time += sure
             if (

@@ -97,8 +97,9 @@ def heading(land: Land, ball: BallRecord) -> Vector:
 def touch_down(land: Land, ball: BallRecord, now: float) -> None:
     """Let the ball go on along its support, where it slides at first.
 
-    Writes phase, velocity and spin.
+    Writes phase, step, velocity and spin.
     """
+    ball['step'] = 0.0  # that of the flight says nothing
     begin_sliding(ball)
     choose_contact_mode(land, ball, now)
 

@@ -27,6 +27,7 @@ from .contact_state import choose_contact_mode, in_micro_bounces, remove_slip
 from ..effects import flight_rates, gravity_at, moving_air
 from ..geometry import surfaces
 from ..integrators import step
+from ..integrators.runge_kutta import store_stage
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Land, ModelRecord, Vector
 from ..mechanics.impulse import slip
@@ -34,12 +35,15 @@ from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale,
 from ..state.ball import moves, ROLL, SLIDE
 from ..state.transitions import begin_rolling, begin_sliding, take_off
 from ..trajectory.equations_of_motion import (
-    contact_rates,
     growth_rate,
+    keep_surface,
+    kept_surface,
     LEAST_SPEED,
     material_under,
+    rates_on,
     supporting_surface,
-    turn_of_normal,
+    turning_surface,
+    TurningSurface,
     unwinding,
 )
 from ..trajectory.segment import fit_segment, position
@@ -47,7 +51,7 @@ from ..trajectory.segment import fit_segment, position
 MOST_NORMAL_TURN = 0.1  # rad by which the normal may turn in a step
 # of that in micro-bounces: nothing brakes, so an error between a step's ends shows as energy
 UNBRAKED = 0.5
-FIRST_STEP = 0.02  # s
+FIRST_STEP = 0.05  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s: a shorter step's end is not projected in position
 CORRECTIONS = 12  # attempts at a step, each shorter than the last
@@ -55,7 +59,8 @@ CORRECTIONS = 12  # attempts at a step, each shorter than the last
 CORRECTION_WORK = 1
 # of the press at the start: a step at whose end the ground would pull harder is shortened
 LIFTS = 1e-6
-APPROACH = 0.75  # of the time until friction is discontinuous: the longest step towards it
+APPROACH = 0.9  # of the time until friction is discontinuous: the longest step towards it
+UNTOLD = 1e-2  # of the limit on a path's error: less tells nothing about a longer step
 # Energy over mass that a step may gain: so much for each metre that a path may be off, and so
 # much besides, which lifts a ball by 20 pm, and as much of the square of its speed.
 GAIN = 0.03  # m/s^2
@@ -68,40 +73,40 @@ SLIP_TIME = 1e-8  # s
 
 
 @shared
-def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
+def curved_segment(
+    model: ModelRecord, ball: BallRecord, now: float, surface: TurningSurface
+) -> None:
     """Plan a step along ground of any form, or lift off where nothing presses.
 
-    Writes curve, ending, integrator, phase, velocity, spin, segments_spent. The motion changes in
-    small ways only: see `snap_small_motion`.
+    `surface` is the `turning_surface` of the ball as it is now. Writes curve, ending, integrator,
+    phase, velocity, spin, segments_spent. The motion changes in small ways only: see
+    `snap_small_motion`.
     """
     land = model.land
     place = load(ball['position'])
+    v = load(ball['velocity'])
     w = load(ball['spin'])
-    force, _, press, needed = contact_rates(land, ball, place, load(ball['velocity']), w)
+    force, _, press, needed = rates_on(land, ball, surface, (place, v, w))
     # The air is asked only where the weight does not hold the ball: see `press_with_air`.
-    holding = (
-        press if press > 0.0 else press_with_air(model, ball, place, load(ball['velocity']), w)
-    )
+    holding = press if press > 0.0 else press_with_air(model, surface, place, v, w)
     if holding <= 0.0:
         take_off(ball)
         return
+    phase = ball['phase']
     grips = needed <= material_under(land, ball)['static_friction'] * press
     if ball['phase'] == ROLL and not grips:
         begin_sliding(ball)
     snap_small_motion(land, ball, force, press, grips, now)
     if not moves(ball['phase']):
         return
-    v = load(ball['velocity'])
-    force, _, press, _ = contact_rates(land, ball, place, v, load(ball['spin']))
-    turn = turn_of_normal(land, ball, place, v)
-    h = FIRST_STEP if ball['step'] == 0.0 else ball['step']
-    h = min(h, MOST_NORMAL_TURN / max(length(turn), 1e-3))
-    h = min(h, time_to_unwind(land, ball, press, turn))
-    # Never up to a discontinuity, where the method would lose its order.
-    h = max(min(h, APPROACH * time_to_change(land, ball, force, press)), LEAST_STEP)
-    if in_micro_bounces(ball, now):
-        h = min(h, UNBRAKED * MOST_NORMAL_TURN / max(length(turn), 1e-3))
-        h = min(h, ball['micro_bounce_end'] - now)
+    if load(ball['velocity']) != v:
+        v = load(ball['velocity'])
+        surface = turning_surface(land, ball, place, v)
+    force, torque, press, _ = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
+    store_stage(ball, 0, v, force, torque)
+    change = time_to_change(land, ball, force, press)
+    wanted = ball['step'] if ball['step'] > 0.0 and ball['phase'] == phase else FIRST_STEP
+    asked = h = min(wanted, longest_contact_step(land, ball, press, surface[2], change))
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
     cost = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
     for _ in range(CORRECTIONS):
@@ -110,16 +115,21 @@ def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
         step(model, ball)
         following = ball['step']
         h = ball['span']
-        held = project_to_ground(land, ball)
+        held, normal = project_to_ground(land, ball)
         if held <= 0.0:
             end = add_scaled(place, 1.0, load(ball['position_coefficients'][5]))
-            held = press_with_air(
-                model, ball, end, end_velocity(ball), load(ball['spin_coefficients'][3])
-            )
-        left = step_share_to_change(land, ball, v, slipping, holding, held)
+            fast = end_velocity(ball)
+            ground = turning_surface(land, ball, end, fast)
+            held = press_with_air(model, ground, end, fast, load(ball['spin_coefficients'][3]))
+        left = step_share_to_change(land, ball, (v, slipping), (holding, held), normal)
         if left == 1.0:
             left = step_share_on_ground(land, ball)
             following = min(following, 2.0 * h * left)  # what limits this step limits the next one
+            if h == asked < wanted:  # not by its error
+                following = max(following, min(wanted, 2.0 * h * left))
+            else:  # friction's direction turns the faster the nearer its change is
+                most = following if h == asked else 1.5 * h
+                following = min(following, most) * max(1.0 - h / change, 0.1)
             if left >= 1.0:
                 break
         if h * left <= LEAST_STEP:
@@ -130,34 +140,43 @@ def curved_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
 
 @shared
 def press_with_air(
-    model: ModelRecord, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
+    model: ModelRecord, surface: TurningSurface, place: Vector, velocity: Vector, spin: Vector
 ) -> float:
     """Press [m/s^2] of weight and aerodynamic forces together.
 
     Topspin and wind hold a ball to a crest which its weight alone would let it leave: it would be
     back at once. Elsewhere only moving air acts on a ball on the ground: see `moving_air`.
     """
-    _, normal = surfaces.nearest(model.land.ground, ball['support'], place)
-    turn = surfaces.turn(model.land.ground, ball['support'], place, velocity)
+    _, normal, turn = surface
     force, _ = flight_rates(model.effects, model.land.ground, place, velocity, spin)
     return -dot(force, normal) - dot(velocity, turn)
+
+
+@kernel
+def off_ground(land: Land, ball: BallRecord, share: float) -> float:
+    """Distance [m] that the ball is off the ground at that `share` of its segment."""
+    distance, _ = supporting_surface(land, ball, position(ball, share * ball['span']))
+    return abs(distance - land.ball.radius)
 
 
 @shared
 def step_share_on_ground(land: Land, ball: BallRecord) -> float:
     """Share of the step over which its curve stays on the ground, to the limit on a path's error.
 
-    It is 1 or more if the step stands. The curve interpolates position, velocity and acceleration
-    at both ends (quintic Hermite), so its error goes with the step's sixth power.
+    It is 1 or more if the step stands, without end if nothing is known of a longer one. The curve
+    interpolates position, velocity and acceleration at both ends (quintic Hermite), so its error
+    goes with the step's sixth power.
     """
-    off = 0.0
-    for i in range(1, 4):
-        distance, _ = supporting_surface(land, ball, position(ball, 0.25 * i * ball['span']))
-        off = max(off, abs(distance - land.ball.radius))
+    off = off_ground(land, ball, 0.5)
+    # On a smooth surface the curve is off most near its middle.
+    if off > UNTOLD * land.limits.path or not surfaces.goes_on(
+        land.ground, ball['support'], ball['support']
+    ):
+        off = max(off_ground(land, ball, 0.25), off, off_ground(land, ball, 0.75))
     if off <= land.limits.path:
-        return max(
-            1.0, 0.9 * (land.limits.path / max(off, 1e-2 * land.limits.path)) ** (1.0 / 6.0)
-        )
+        if off <= UNTOLD * land.limits.path:
+            return inf
+        return max(1.0, 0.9 * (land.limits.path / off) ** (1.0 / 6.0))
     return max(0.9 * (land.limits.path / off) ** (1.0 / 6.0), 0.1)
 
 
@@ -212,9 +231,29 @@ def time_to_unwind(land: Land, ball: BallRecord, press: float, turn: Vector) -> 
     about = dot(load(ball['spin']), load(ball['normal']))
     if material['pivot_friction'] == 0.0 or abs(about) * r <= LEAST_SPEED:
         return inf
+    if in_micro_bounces(ball, ball['begin']):  # single impacts do not brake it
+        return inf
     drive = dot(load(ball['spin']), turn)
     losing = unwinding(material, press, r, land.ball.inertia) - (drive if about > 0.0 else -drive)
     return abs(about) / losing if losing > 0.0 else inf
+
+
+@kernel
+def longest_contact_step(
+    land: Land, ball: BallRecord, press: float, turn: Vector, change: float
+) -> float:
+    """Longest step [s] that does not overlook what happens to the ball.
+
+    That is the turn of the normal, the end of micro-bounces or of spin about the normal, and
+    another `change` of friction, at that time from now.
+    """
+    unturned = MOST_NORMAL_TURN / max(length(turn), 1e-3)
+    most = min(unturned, time_to_unwind(land, ball, press, turn))
+    # Never up to a discontinuity, where the method would lose its order.
+    most = max(min(most, APPROACH * change), LEAST_STEP)
+    if in_micro_bounces(ball, ball['begin']):
+        most = min(most, UNBRAKED * unturned, ball['micro_bounce_end'] - ball['begin'])
+    return most
 
 
 @shared
@@ -241,13 +280,19 @@ def time_to_change(land: Land, ball: BallRecord, force: Vector, press: float) ->
 
 @shared
 def step_share_to_change(
-    land: Land, ball: BallRecord, v: Vector, slipping: Vector, holding: float, held: float
+    land: Land,
+    ball: BallRecord,
+    start: tuple[Vector, Vector],
+    presses: tuple[float, float],
+    normal: Vector,
 ) -> float:
     """Share of the step that stays before a discontinuity of the equations, or 1.
 
-    ``holding``, ``held``: the press that keeps the ball on the ground, at the start and at the
-    end.
+    ``start``: velocity and slip at the start; ``presses``: what keeps the ball on the ground, at
+    the start and at the end; ``normal``: at the end.
     """
+    v, slipping = start
+    holding, held = presses
     if held < -LIFTS * holding:
         return max(holding / (holding - held), 0.01)
     gain, allowed = gained(land, ball), GAIN * land.limits.path + LEAST_GAIN * (1.0 + dot(v, v))
@@ -256,7 +301,9 @@ def step_share_to_change(
     # Slip or velocity that has turned round within the step has passed through zero, unseen by its
     # stages.
     if ball['phase'] == SLIDE:
-        turned = length(slipping) > LEAST_SPEED and dot(slipping, slip_at_end(land, ball)) < 0.0
+        turned = (
+            length(slipping) > LEAST_SPEED and dot(slipping, slip_at_end(land, ball, normal)) < 0.0
+        )
     else:
         turned = (
             material_under(land, ball)['rolling_resistance'] > 0.0
@@ -295,16 +342,16 @@ def gained(land: Land, ball: BallRecord) -> float:
 
 
 @shared
-def project_to_ground(land: Land, ball: BallRecord) -> float:
+def project_to_ground(land: Land, ball: BallRecord) -> tuple[float, Vector]:
     """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
-    The position is not projected after the shortest of steps: its rounding error far from the
-    origin, 5e-14 m, over a nanosecond is speed. Writes curve.
+    And the normal there. The position is not projected after the shortest of steps: its rounding
+    error far from the origin, 5e-14 m, over a nanosecond is speed. Writes curve, stages.
     """
     r = land.ball.radius
     x0 = load(ball['position'])
     way = load(ball['position_coefficients'][5])
-    distance, normal = supporting_surface(land, ball, add_scaled(x0, 1.0, way))
+    distance, normal = kept_surface(ball)  # of the step's last stage
     if ball['span'] > SHORT_STEP:
         way = add_scaled(way, r - distance, normal)
     end = add_scaled(x0, 1.0, way)
@@ -314,7 +361,9 @@ def project_to_ground(land: Land, ball: BallRecord) -> float:
     if ball['phase'] == ROLL:
         spin = add_scaled(scale(1.0 / r, cross(normal, velocity)), dot(spin, normal), normal)
     store(ball['spin_coefficients'][3], spin)
-    force, torque, press, _ = contact_rates(land, ball, end, velocity, spin)
+    surface = turning_surface(land, ball, end, velocity)
+    keep_surface(ball, surface[0], surface[1])
+    force, torque, press, _ = rates_on(land, ball, surface, (end, velocity, spin))
     first = ball['stages'][0]
     fit_segment(
         ball,
@@ -323,7 +372,7 @@ def project_to_ground(land: Land, ball: BallRecord) -> float:
         (load(first[3:6]), force),
         (load(first[6:9]), torque),
     )
-    return press
+    return press, surface[1]
 
 
 @kernel
@@ -334,8 +383,6 @@ def end_velocity(ball: BallRecord) -> Vector:
 
 
 @kernel
-def slip_at_end(land: Land, ball: BallRecord) -> Vector:
-    """Slip of the ball at the end of its segment."""
-    place = add_scaled(load(ball['origin']), 1.0, load(ball['position_coefficients'][5]))
-    _, normal = supporting_surface(land, ball, place)
+def slip_at_end(land: Land, ball: BallRecord, normal: Vector) -> Vector:
+    """Slip of the ball at the end of its segment, where the ground has that `normal`."""
     return slip(end_velocity(ball), load(ball['spin_coefficients'][3]), normal, land.ball.radius)

@@ -88,8 +88,13 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
     if ball['phase'] == SLIDE:
         braking = material['dynamic_friction'] * press
         u = slip(v, load(ball['spin']), normal, land.ball.radius)
-        time = length(u) / max((1.0 + 1.0 / k) * braking, LEAST_BRAKE)
         growth *= 1.0 + k
+        # What grows with speed brakes the centre alone: where the ball spins faster than it rolls
+        # it drives slip, and may do so harder than friction ends it.
+        losing = (1.0 + 1.0 / k) * braking + growth * length(v) * dot(v, unit(u, ZERO))
+        if losing < LEAST_BRAKE:
+            return False
+        time = length(u) / losing
         change = 2.0 * growth * (braking + growth * dot(v, v)) * length(v) * time
     else:
         braking = material['rolling_resistance'] * press - length(downhill) / (1.0 + k)

@@ -39,7 +39,7 @@ from ..effects import at_time, protocol, set_drift
 from ..geometry import surfaces
 from ..geometry.surfaces import Ground
 from ..jit import borrowed, cycles, entry, kernel, literal_unroll, shared
-from ..kernel_types import BallRecord, Effects, ModelRecord, WorkRecord
+from ..kernel_types import BallRecord, Effects, Land, ModelRecord, Vector, WorkRecord
 from ..mechanics.vector import load, store, unit, ZERO
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws)
 from ..response.collision_log import log_out_of_bounds
@@ -66,6 +66,7 @@ from ..state.ball import (
 )
 from ..state.events import Log, LOST, SHOT_ENDS
 from ..state.transitions import hole_out, leave_bounds, sink
+from ..trajectory.equations_of_motion import kept_surface
 from ..trajectory.shot_record import (
     begin_shot,
     check_segment,
@@ -170,16 +171,25 @@ def resolve(model: ModelRecord, balls: np.ndarray, i: int, work: WorkRecord, log
     elif is_wedged(ball):
         step_wedged(model.land, balls, i, now, work)
     elif ball['phase'] != FLIGHT:
-        ahead = unit(load(ball['velocity']), ZERO)
-        _, normal = surfaces.under(
-            model.land.ground, ball['support'], load(ball['position']), ahead
-        )
-        store(ball['normal'], normal)
+        store(ball['normal'], normal_at_end(model.land, ball))
         if ending == SLIP_STOPS:
             stop_slip(model, ball)
         elif ending == BALL_STOPS:
             store(ball['velocity'], ZERO)
         choose_contact_mode(model.land, ball, now)
+
+
+@kernel
+def normal_at_end(land: Land, ball: BallRecord) -> Vector:
+    """Compute the normal under a ball in contact at the end of its segment."""
+    ground = land.ground
+    if surfaces.goes_on(ground, ball['support'], ball['support']):
+        _, normal = kept_surface(ball)
+        # A segment that was cut ends elsewhere; older records keep nothing.
+        if ball['end'] == ball['begin'] + ball['span'] and normal != ZERO:
+            return normal
+    ahead = unit(load(ball['velocity']), ZERO)
+    return surfaces.under(ground, ball['support'], load(ball['position']), ahead)[1]
 
 
 @kernel

@@ -74,7 +74,7 @@ from ..state.ball import (
 )
 from ..state.transitions import begin_rolling, take_off
 from ..trajectory import segment
-from ..trajectory.equations_of_motion import LEAST_SPEED
+from ..trajectory.equations_of_motion import LEAST_SPEED, turning_surface
 
 LONGEST_SHOT = 300.0  # s
 # After so many segments of zero length in a row every second one lasts for a MOMENT. That grows,
@@ -223,6 +223,9 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     integrator, segments_spent.
     """
     land = model.land
+    if surfaces.goes_on(land.ground, ball['support'], ball['support']):
+        smooth_surface_segment(model, ball, now)
+        return ON_CURVE
     is_flat = surfaces.flat_under(land.ground, ball['support'], load(ball['position']))
     if is_flat and not flat_ground_goes_on(land, ball):
         cross_border(land, ball, now)
@@ -234,18 +237,35 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     goes_on = flat_ground_goes_on(land, ball)
     ball['on_flat'] = 1 if goes_on else 0
     if goes_on:
+        surface = land.ball.radius, normal, ZERO
         if not is_in_still_air(land, ball, now):
-            curved_segment(model, ball, now)
+            curved_segment(model, ball, now, surface)
         elif resists_evenly(land, ball, now):  # in closed form
             plane_segment(land, ball, now)
         elif rolls_straight(land, ball, now):
             rolling_segment(land, ball)
         else:
-            curved_segment(model, ball, now)
+            curved_segment(model, ball, now, surface)
         return ON_FLAT
     ball['material'] = contact_material_number(land, ball, ball['support'], normal)
-    curved_segment(model, ball, now)
-    return ON_CURVE if surfaces.goes_on(land.ground, ball['support'], ball['support']) else ON_EDGE
+    place, v = load(ball['position']), load(ball['velocity'])
+    curved_segment(model, ball, now, turning_surface(land, ball, place, v))
+    return ON_EDGE
+
+
+@kernel
+def smooth_surface_segment(model: ModelRecord, ball: BallRecord, now: float) -> None:
+    """Plan a segment of a ball that a smooth surface supports as a whole: none of it is flat.
+
+    Writes motion, phase, contact, on_flat, curve, ending, integrator, segments_spent.
+    """
+    land = model.land
+    ball['on_flat'] = 0
+    place, v = load(ball['position']), load(ball['velocity'])
+    surface = turning_surface(land, ball, place, v)
+    store(ball['normal'], surface[1])
+    ball['material'] = contact_material_number(land, ball, ball['support'], surface[1])
+    curved_segment(model, ball, now, surface)
 
 
 @kernel

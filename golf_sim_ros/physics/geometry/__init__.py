@@ -28,8 +28,8 @@ from typing import Any, Iterable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from .polygon import Circle, Outline, polygons, regions, sides
-from .surfaces import BORDER, Ground
+from .polygon import Circle, Outline, OUTSIDE, polygons, regions, sides
+from .surfaces import BORDER, BORDER_LINE, Ground
 from .water_surface import Water, waters
 from .zone import Zone, zones_of
 from ..kernel_types import ShapeRecord
@@ -86,7 +86,7 @@ def build(
     heights += [(pond.level, pond.level) for pond in water]
     return Ground(
         kinds,
-        _borders(outlines),
+        *_borders(outlines),
         regions([zone.polygon for zone in painted], [zone.cut for zone in painted]),
         np.array([material_number[zone.material] for zone in painted], np.int64),
         polygons([bounds] if bounds else []),
@@ -115,15 +115,21 @@ def extent(shape: ShapeRecord) -> tuple[np.ndarray, np.ndarray]:
     return np.min(places, 0), np.max(places, 0)
 
 
-def _borders(outlines: Iterable[Union[Outline, Circle]]) -> np.ndarray:
+def _borders(outlines: Iterable[Union[Outline, Circle]]) -> tuple[np.ndarray, np.ndarray]:
     rows: list[tuple[Any, ...]] = []
+    lines: list[tuple[Any, ...]] = []
     for outline in outlines:
         if isinstance(outline, Circle):
-            rows.append(((outline.x, outline.y), (1.0, 0.0), 0.0, outline.radius))
+            center, r = np.array((outline.x, outline.y)), outline.radius
+            lines.append((len(rows), len(rows) + 1, center - r, center + r))
+            rows.append((center, (1.0, 0.0), 0.0, r))
             continue
+        first = len(rows)
         for corners in sides(outline):
             start, end = np.asarray(corners, float)
             size = np.linalg.norm(end - start)
             if size > 1e-9:  # an upright patch has no width in plan
                 rows.append((start, (end - start) / size, size, 0.0))
-    return np.array(rows, BORDER)
+        low, high = np.min(outline, 0), np.max(outline, 0)
+        lines.append((first, len(rows), low - OUTSIDE, high + OUTSIDE))
+    return np.array(rows, BORDER), np.array(lines, BORDER_LINE)

@@ -24,7 +24,7 @@ from math import floor
 
 import numpy as np
 
-from ..jit import kernel, shared
+from ..jit import kernel
 from ..kernel_types import StructRecord, SurfacePoint, Vector
 
 # Rows of cells that are bounded at once: on a map of 1000 x 1000 those take some 50 MB.
@@ -44,6 +44,8 @@ GRID = np.dtype(
         ('gentle', 'i8'),
         ('high', 'f8'),
         ('hollow', 'f8'),
+        ('steep', 'f8'),
+        ('bend', 'f8'),
     ],
     align=True,
 )
@@ -89,7 +91,7 @@ def bounds(at_nodes: np.ndarray, spacing: float) -> np.ndarray:
     )
 
 
-def _bounds(at: np.ndarray, spacing: float) -> np.ndarray:
+def _net(at: np.ndarray) -> np.ndarray:
     # Bezier's ordinates along x of heights and of slopes along y, then both along y:
     # (4, 4, ny - 1, nx - 1).
     def along_x(value: np.ndarray, slope: np.ndarray) -> np.ndarray:
@@ -102,7 +104,11 @@ def _bounds(at: np.ndarray, spacing: float) -> np.ndarray:
     heights, slopes_up = along_x(at[..., 0], at[..., 1]), along_x(at[..., 2], at[..., 3]) / 3
     low, high = heights[:, :-1], heights[:, 1:]
     rise, fall = slopes_up[:, :-1], slopes_up[:, 1:]
-    points = np.stack((low, low + rise, high - fall, high))
+    return np.stack((low, low + rise, high - fall, high))
+
+
+def _bounds(at: np.ndarray, spacing: float) -> np.ndarray:
+    points = _net(at)
     area = spacing * spacing
     xx = 6 * np.diff(points, 2, axis=1) / area
     yy = 6 * np.diff(points, 2, axis=0) / area
@@ -112,6 +118,16 @@ def _bounds(at: np.ndarray, spacing: float) -> np.ndarray:
     return np.stack(
         (points.min((0, 1)), points.max((0, 1)), np.maximum(up, 0), np.maximum(up, down)), -1
     )
+
+
+def steepest(at_nodes: np.ndarray, spacing: float) -> float:
+    """Bound on the slope over a whole map."""
+    return max(
+        float(np.hypot(*(np.abs(np.diff(net, axis=axis)).max() for axis in (0, 1))))
+        for net in (
+            _net(at_nodes[first:][: AT_ONCE + 1]) for first in range(0, len(at_nodes) - 1, AT_ONCE)
+        )
+    ) * (3.0 / spacing)
 
 
 def _greatest(xx: np.ndarray, yy: np.ndarray, xy: np.ndarray) -> np.ndarray:
@@ -143,7 +159,7 @@ def cell_at(grid: StructRecord, x: float, y: float) -> tuple[int, int]:
     return column, row
 
 
-@shared
+@kernel
 def bicubic(table: np.ndarray, grid: StructRecord, x: float, y: float) -> SurfacePoint:
     """Height at `x`, `y` [m] from the grid's origin, its derivatives by x, y, xx, xy and yy."""
     size = grid['spacing']

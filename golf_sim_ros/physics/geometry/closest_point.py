@@ -29,6 +29,9 @@ MOST_NEWTON_STEPS = 60
 CONVERGED_STEP = 1e-13  # of the spacing: shorter steps change nothing
 # Of the spacing: shorter steps are taken without line search, whose test would be rounding.
 SURE = 1e-6
+# Of the spacing: after such a step the next would be rounding, for each errs by the last one's
+# square, and so would what Taylor's formula leaves out of the height and the slopes.
+LAST = 1e-7
 START_SAMPLES = 5  # a side, to start from where there may be several local minima
 Samples = tuple[float, float, float, float, float]  # of a row of START_SAMPLES
 NO_SAMPLES = (1e300, 1e300, 1e300, 1e300, 1e300)
@@ -43,7 +46,7 @@ def held(x: float, low: float, high: float, pull: float) -> bool:
     return x <= low and pull >= 0.0 or x >= high and pull <= 0.0
 
 
-@shared
+@kernel
 def newton(
     hessian: Vector, gradient: tuple[float, float], fixed_x: bool, fixed_y: bool
 ) -> tuple[float, float]:
@@ -110,8 +113,12 @@ def descend(
         fixed_x = held(x, x0, x1, gx)
         fixed_y = held(y, y0, y1, gy)
         a, b, c = curvatures(point, at)
-        sure = (fixed_x or a > 0.0) and (fixed_y or c > 0.0)
-        if not sure or not (fixed_x or fixed_y or a * c - b * b > 0.01 * a * c):
+        convex = (
+            (fixed_x or a > 0.0)
+            and (fixed_y or c > 0.0)
+            and (fixed_x or fixed_y or a * c - b * b > 0.01 * a * c)
+        )
+        if not convex:
             # not positive definite: Gauss-Newton, as if the surface were flat
             a = 1.0 + at[1] * at[1]
             b = at[1] * at[2]
@@ -124,6 +131,8 @@ def descend(
         if abs(dx) + abs(dy) <= CONVERGED_STEP * size:
             break
         share = min(share_within(x, dx, x0, x1), share_within(y, dy, y0, y1))
+        if convex and share == 1.0 and abs(dx) + abs(dy) < LAST * size:
+            return x + dx, y + dy, moved_by(at, dx, dy)
         # Backtracking line search with Armijo's condition.
         before = half_square(point, x, y, at[0])
         falling = gx * dx + gy * dy
@@ -143,6 +152,21 @@ def descend(
         if moved == 0.0:
             break
     return x, y, at
+
+
+@kernel
+def moved_by(at: SurfacePoint, dx: float, dy: float) -> SurfacePoint:
+    """`bicubic` a short way from where it is `at`, by Taylor's formula to second order."""
+    z, zx, zy, zxx, zxy, zyy = at
+    bent = zxx * dx + zxy * dy, zxy * dx + zyy * dy
+    return (
+        z + (zx + 0.5 * bent[0]) * dx + (zy + 0.5 * bent[1]) * dy,
+        zx + bent[0],
+        zy + bent[1],
+        zxx,
+        zxy,
+        zyy,
+    )
 
 
 @kernel

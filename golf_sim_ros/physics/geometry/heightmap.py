@@ -16,8 +16,9 @@
 
 Parts are its cells, the walls around it, and each map as a whole. They are numbered cells first,
 of all maps, row by row; then walls, one for each cell's side on the outline, that go down without
-end; then maps. A map as a whole is the support of a ball where its hollows are wide; it is never
-hit, only cells and walls are. On a map with a narrow hollow a ball rolls from cell to cell.
+end; then maps. A map whose hollows are wide touches a ball at one point: it is hit as a whole, but
+near its outline, and supports the ball as a whole. On a map with a narrow hollow a ball hits cells
+and rolls from cell to cell.
 
 ::
 
@@ -27,14 +28,14 @@ hit, only cells and walls are. On a map with a narrow hollow a ball rolls from c
       heights[0, 0]    o--0-1-2-> x         x least, x greatest
 """
 
-from math import floor
+from math import floor, hypot
 from typing import Mapping, NamedTuple, Sequence, Union
 
 import numpy as np
 
 from . import surface_protocol
-from .bicubic import bicubic, bounds, cell_at, GRID, nodes
-from .closest_point import closest_point, curvatures, held, pulls
+from .bicubic import bicubic, bounds, cell_at, GRID, nodes, steepest
+from .closest_point import closest_point, curvatures, descend, held, pulls
 from .plane_patch import SAME_HEIGHT
 from .polygon import Outline
 from ..jit import kernel, shared
@@ -46,6 +47,7 @@ from ..properties.material import Material
 WIDE = 10.0
 SEVERAL = 256  # effort of a cell where the distance may have several minima
 ON_SEAM = 1e-9  # rad: above a seam but for this angle, a ball is above both cells
+INNER = 1e-6  # of the spacing: a foot so far within a cell is on no seam
 
 
 class Heightmap(NamedTuple):
@@ -59,6 +61,20 @@ class Heightmap(NamedTuple):
     origin: tuple[float, float] = (0.0, 0.0)
     spacing: float = 1.0
     material: Material = Material()
+
+
+class Foot(NamedTuple):
+    """Closest point of a cell or a map: `x`, `y`, and `bicubic` there.
+
+    ``box``: the part's rectangle; ``below``: whether the point that asks is under the part.
+    Coordinates are metres from the map's origin.
+    """
+
+    box: Rectangle
+    x: float
+    y: float
+    at: SurfacePoint
+    below: bool
 
 
 class Maps(NamedTuple):
@@ -98,6 +114,8 @@ def build(shapes: Sequence[Heightmap], material_number: Mapping[Material, int]) 
                 hollow < WIDE,
                 limits[..., 1].max(),
                 hollow,
+                hypot(1.0, steepest(table, shape.spacing)),
+                limits[..., 3].max(),
             )
         )
         tables.append(table.reshape(-1, 4))
@@ -217,21 +235,27 @@ def rectangle(kind: Maps, grid: StructRecord, part: int) -> Rectangle:
     )
 
 
-@shared
+@kernel
 def place_under(
-    kind: Maps, grid: StructRecord, part: int, point: Vector
+    kind: Maps, grid: StructRecord, part: int, box: Rectangle, point: Vector
 ) -> tuple[float, float, SurfacePoint]:
-    """Closest point of the surface of `part`, of a wall's upper edge, and `bicubic` there."""
+    """Closest point of the surface of `part`, of a wall's upper edge, and `bicubic` there.
+
+    `box` is the part's rectangle.
+    """
+    if part == grid['number']:  # one minimum, for its hollows are wide
+        x, y = min(max(point[0], box[0]), box[2]), min(max(point[1], box[1]), box[3])
+        return descend(kind.nodes, grid, box, x, y, point)
     # Curvature times height over or under the cell tells `closest_point` whether the minimum is
-    # unique. On a map as a whole it is, for its hollows are wide.
+    # unique.
     bend = 0.0
     if part < len(kind.cells):
         cell = kind.cells[part]
         bend = cell[3] * max(point[2] - cell[0], cell[1] - point[2])
-    elif part < grid['number']:
+    else:
         cell = kind.cells[bounds_of(kind, part)]
         bend = cell[3] * max(point[2] - cell[0], cell[1] - point[2])
-    return closest_point(kind.nodes, grid, rectangle(kind, grid, part), bend, point)
+    return closest_point(kind.nodes, grid, box, bend, point)
 
 
 @kernel
@@ -266,16 +290,27 @@ def _nearest(kind: Maps, part: int, point: Vector) -> tuple[float, Vector]:
         if beside:
             offset = (local[0] - x, local[1] - y, 0.0)
             return length(offset), unit(offset, outward(kind, grid, part))
-    x, y, at = place_under(kind, grid, part, local)
-    offset = (local[0] - x, local[1] - y, local[2] - at[0])
-    upright = unit((-at[1], -at[2], 1.0), ZERO)
-    sign = -1.0 if is_below_map(kind, grid, part, local, (x, y), at) else 1.0
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
-    if x0 < x < x1 and y0 < y < y1:  # the slopes give the normal more exactly than a short offset
+    return distance_from(foot_under(kind, grid, part, local), local)
+
+
+@kernel
+def distance_from(foot: Foot, local: Vector) -> tuple[float, Vector]:
+    """Signed distance of a point from its `foot`, and the unit normal there."""
+    offset = (local[0] - foot.x, local[1] - foot.y, local[2] - foot.at[0])
+    upright = unit((-foot.at[1], -foot.at[2], 1.0), ZERO)
+    sign = -1.0 if foot.below else 1.0
+    if is_within(foot.box, foot.x, foot.y):
+        # The slopes give the normal more exactly than a short offset.
         away = dot(offset, upright)
         facing = -1.0 if away < 0.0 < sign else 1.0  # past a wall, towards the back
         return facing * away, scale(facing, upright)
     return sign * length(offset), unit(scale(sign, offset), upright)
+
+
+@kernel
+def is_within(box: Rectangle, x: float, y: float) -> bool:
+    """Whether a point in plan is within a rectangle, and not on its sides."""
+    return box[0] < x < box[2] and box[1] < y < box[3]
 
 
 @kernel
@@ -285,29 +320,24 @@ def is_over_map(grid: StructRecord, local: Vector) -> bool:
     return 0.0 <= local[0] <= grid['nx'] * size and 0.0 <= local[1] <= grid['ny'] * size
 
 
-@shared
-def is_below_map(
-    kind: Maps,
-    grid: StructRecord,
-    part: int,
-    local: Vector,
-    place: tuple[float, float],
-    at: SurfacePoint,
-) -> bool:
-    """Whether a point is under `part`, a cell or a map, whose closest point is at `place`.
+@kernel
+def foot_under(kind: Maps, grid: StructRecord, part: int, local: Vector) -> Foot:
+    """Closest point of `part`, a cell, a map, or a wall's upper edge.
 
-    Beyond a wall a point is outside, even if it is nearest to the back of ground that falls away
+    Beyond a wall a point is not below, even if it is nearest to the back of ground that falls away
     from there.
     """
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
-    if x0 < place[0] < x1 and y0 < place[1] < y1:
-        offset = (local[0] - place[0], local[1] - place[1], local[2] - at[0])
-        return dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
-    return (
-        x0 < local[0] < x1
-        and y0 < local[1] < y1
-        and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0]
-    )
+    box = rectangle(kind, grid, part)
+    x, y, at = place_under(kind, grid, part, box, local)
+    if is_within(box, x, y):
+        offset = (local[0] - x, local[1] - y, local[2] - at[0])
+        below = dot(offset, (-at[1], -at[2], 1.0)) < 0.0 and is_over_map(grid, local)
+    else:
+        below = (
+            is_within(box, local[0], local[1])
+            and local[2] < bicubic(kind.nodes, grid, local[0], local[1])[0]
+        )
+    return Foot(box, x, y, at, below)
 
 
 @shared
@@ -321,14 +351,12 @@ def outward(kind: Maps, grid: StructRecord, part: int) -> Vector:
 
 @surface_protocol.turn.register(Maps)
 def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
-    # The closest point moves so that it stays closest (implicit differentiation, with the Hessian
-    # of half the squared distance); held by a border, it moves along that only.
     grid = kind.grids[grid_of(kind, part)]
     local = from_origin(grid, point)
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
     if is_wall(kind, grid, part):
         beside, x, y = beside_wall(kind, grid, part, local)
         if beside:
+            x0, y0, x1, y1 = rectangle(kind, grid, part)
             offset = (local[0] - x, local[1] - y, 0.0)
             moving = (
                 velocity[0] if x0 < x < x1 else 0.0,
@@ -336,11 +364,36 @@ def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
                 velocity[2],
             )
             return turned(sub(velocity, moving), offset)
-    x, y, at = place_under(kind, grid, part, local)
-    offset = (local[0] - x, local[1] - y, local[2] - at[0])
-    gx, gy = pulls(local, x, y, at)
-    fixed_x = x0 == x1 or held(x, x0, x1, gx)
-    fixed_y = y0 == y1 or held(y, y0, y1, gy)
+    return turn_over(foot_under(kind, grid, part, local), local, velocity)
+
+
+@surface_protocol.nearest_turning.register(Maps)
+def _nearest_turning(
+    kind: Maps, part: int, point: Vector, velocity: Vector
+) -> tuple[float, Vector, Vector]:
+    grid = kind.grids[grid_of(kind, part)]
+    if is_wall(kind, grid, part):
+        distance, normal = surface_protocol.nearest(kind, part, point)
+        return distance, normal, surface_protocol.turn(kind, part, point, velocity)
+    local = from_origin(grid, point)
+    foot = foot_under(kind, grid, part, local)
+    distance, normal = distance_from(foot, local)
+    return distance, normal, turn_over(foot, local, velocity)
+
+
+@kernel
+def turn_over(foot: Foot, local: Vector, velocity: Vector) -> Vector:
+    """Rate of change of the unit normal at the `foot` of a point that moves at `velocity`.
+
+    The closest point moves so that it stays closest (implicit differentiation, with the Hessian
+    of half the squared distance); held by a border, it moves along that only.
+    """
+    x0, y0, x1, y1 = foot.box
+    at = foot.at
+    offset = (local[0] - foot.x, local[1] - foot.y, local[2] - at[0])
+    gx, gy = pulls(local, foot.x, foot.y, at)
+    fixed_x = x0 == x1 or held(foot.x, x0, x1, gx)
+    fixed_y = y0 == y1 or held(foot.y, y0, y1, gy)
     a, b, c = curvatures(local, at)
     p = velocity[0] + at[1] * velocity[2]
     q = velocity[1] + at[2] * velocity[2]
@@ -354,8 +407,7 @@ def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
         dx = (c * p - b * q) / (a * c - b * b)
         dy = (a * q - b * p) / (a * c - b * b)
     rate = sub(velocity, (dx, dy, at[1] * dx + at[2] * dy))
-    sign = -1.0 if is_below_map(kind, grid, part, local, (x, y), at) else 1.0
-    return scale(sign, turned(rate, offset))
+    return scale(-1.0 if foot.below else 1.0, turned(rate, offset))
 
 
 @kernel
@@ -375,8 +427,8 @@ def _touchable(kind: Maps, part: int, point: Vector) -> bool:
         return beside_wall(kind, grid, part, local)[0]
     if part == grid['number']:
         return True
-    x, y, at = place_under(kind, grid, part, local)
-    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    x0, y0, x1, y1 = box = rectangle(kind, grid, part)
+    x, y, at = place_under(kind, grid, part, box, local)
     gx, gy = pulls(local, x, y, at)
     free = ON_SEAM * length((local[0] - x, local[1] - y, local[2] - at[0]))
     column, row = (
@@ -399,10 +451,35 @@ def _touchable(kind: Maps, part: int, point: Vector) -> bool:
     )
 
 
+@surface_protocol.is_inner.register(Maps)
+def _is_inner(kind: Maps, part: int, foot: Vector) -> bool:
+    grid = kind.grids[grid_of(kind, part)]
+    if is_wall(kind, grid, part):
+        return False
+    x, y, _ = from_origin(grid, foot)
+    x0, y0, x1, y1 = rectangle(kind, grid, part)
+    room = INNER * grid['spacing']
+    return is_within((x0 + room, y0 + room, x1 - room, y1 - room), x, y)
+
+
 @surface_protocol.hollow.register(Maps)
 def _hollow(kind: Maps, part: int) -> float:
     grid = kind.grids[grid_of(kind, part)]
     return grid['hollow'] if part == grid['number'] else kind.cells[bounds_of(kind, part), 2]
+
+
+@surface_protocol.relief.register(Maps)
+def _relief(kind: Maps, part: int) -> tuple[float, float]:
+    grid = kind.grids[grid_of(kind, part)]
+    return (grid['steep'], grid['bend']) if part == grid['number'] else (0.0, 0.0)
+
+
+@surface_protocol.height_above.register(Maps)
+def _height_above(kind: Maps, part: int, point: Vector, velocity: Vector) -> tuple[float, float]:
+    grid = kind.grids[grid_of(kind, part)]
+    x, y, z = from_origin(grid, point)
+    at = bicubic(kind.nodes, grid, x, y)
+    return z - at[0], velocity[2] - at[1] * velocity[0] - at[2] * velocity[1]
 
 
 @surface_protocol.effort.register(Maps)
@@ -450,7 +527,11 @@ def _top(kind: Maps, x: float, y: float) -> tuple[float, int]:
 def _next_part(kind: Maps, part: int, low: Vector, high: Vector) -> int:
     for i in range(len(kind.grids)):
         grid = kind.grids[i]
-        if part < grid['first_cell'] + grid['nx'] * grid['ny'] and reached(grid, low, high):
+        if (
+            part < grid['first_cell'] + grid['nx'] * grid['ny']
+            and reached(grid, low, high)
+            and not is_hit_whole(grid, low, high)
+        ):
             found = next_cell(kind, grid, part, low, high)
             if found >= 0:
                 return found
@@ -460,6 +541,14 @@ def _next_part(kind: Maps, part: int, low: Vector, high: Vector) -> int:
             found = next_wall(kind, grid, part, low, high)
             if found >= 0:
                 return found
+    for i in range(len(kind.grids)):
+        grid = kind.grids[i]
+        if (
+            part <= grid['number']
+            and is_hit_whole(grid, low, high)
+            and next_cell(kind, grid, 0, low, high) >= 0
+        ):
+            return grid['number']
     return surface_protocol.parts(kind)
 
 
@@ -474,6 +563,21 @@ def reached(grid: StructRecord, low: Vector, high: Vector) -> bool:
         and low[0] <= x + grid['nx'] * grid['spacing']
         and high[1] >= y
         and low[1] <= y + grid['ny'] * grid['spacing']
+    )
+
+
+@kernel
+def is_hit_whole(grid: StructRecord, low: Vector, high: Vector) -> bool:
+    """Whether the map is one part to a ball in the box: its hollows are wide, its outline far."""
+    x = grid['origin'][0] + SAME_HEIGHT
+    y = grid['origin'][1] + SAME_HEIGHT
+    return (
+        grid['gentle'] != 0
+        and low[2] <= grid['high']
+        and low[0] > x
+        and high[0] < x + grid['nx'] * grid['spacing'] - 2.0 * SAME_HEIGHT
+        and low[1] > y
+        and high[1] < y + grid['ny'] * grid['spacing'] - 2.0 * SAME_HEIGHT
     )
 
 

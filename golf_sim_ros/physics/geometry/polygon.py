@@ -25,11 +25,18 @@ from ..jit import kernel
 Outline = Sequence[Sequence[float]]
 
 
+OUTSIDE = 1e-6  # m: no rounding takes a point so far outside of all corners for one inside
+
+
 class Polygons(NamedTuple):
-    """Polygons in one table: ``corners[first[i]:first[i + 1]]`` are those of polygon i."""
+    """Polygons in one table: ``corners[first[i]:first[i + 1]]`` are those of polygon i.
+
+    It lies within ``boxes[i]``: least x and y, greatest x and y.
+    """
 
     corners: np.ndarray
     first: np.ndarray
+    boxes: np.ndarray
 
 
 class Regions(NamedTuple):
@@ -51,14 +58,17 @@ class Circle(NamedTuple):
     radius: float
 
 
-def polygons(outlines: Iterable[Outline]) -> Polygons:
+def polygons(outlines: Sequence[Outline]) -> Polygons:
     """`Polygons` of sequences of (x, y)."""
     first = np.cumsum([0] + [len(outline) for outline in outlines]).astype(np.int64)
     corners = np.array([c for outline in outlines for c in outline], float).reshape(-1, 2)
-    return Polygons(corners, first)
+    boxes = [
+        (*np.min(outline, 0) - OUTSIDE, *np.max(outline, 0) + OUTSIDE) for outline in outlines
+    ]
+    return Polygons(corners, first, np.array(boxes, float).reshape(-1, 4))
 
 
-def regions(outlines: Iterable[Outline], cuts: Sequence[Sequence[Outline]]) -> Regions:
+def regions(outlines: Sequence[Outline], cuts: Sequence[Sequence[Outline]]) -> Regions:
     """`Regions` of sequences of (x, y), and for each of them a sequence of such sequences."""
     first = np.cumsum([0] + [len(own) for own in cuts]).astype(np.int64)
     return Regions(polygons(outlines), polygons([cut for own in cuts for cut in own]), first)
@@ -98,6 +108,9 @@ def from_sides(table: Polygons, i: int, x: float, y: float) -> float:
 @kernel
 def inside(table: Polygons, i: int, x: float, y: float) -> bool:
     """Whether polygon `i` contains the point, by the even-odd rule."""
+    box = table.boxes[i]
+    if not (box[0] <= x <= box[2] and box[1] <= y <= box[3]):
+        return False
     odd = False
     first = table.first[i]
     last = table.first[i + 1]

@@ -66,9 +66,36 @@ def turn(kind: KindRecord, part: int, point: Vector, velocity: Vector) -> Vector
 
 
 @generic
+def nearest_turning(
+    kind: KindRecord, part: int, point: Vector, velocity: Vector
+) -> tuple[float, Vector, Vector]:
+    """`nearest` and `turn` in one, where one search for the closest point does for both."""
+    distance, normal = nearest(kind, part, point)
+    return distance, normal, turn(kind, part, point, velocity)
+
+
+@generic
 def hollow(kind: KindRecord, part: int) -> float:
     """Greatest concave curvature [1/m] of `part`, seen from outside; 0 if it is convex."""
     return 0.0
+
+
+@generic
+def relief(kind: KindRecord, part: int) -> tuple[float, float]:
+    """Bounds where `part` is a smooth surface over all of the plan, else zeros.
+
+    The greatest length of its upward normal (-dz/dx, -dz/dy, 1), and the greatest second
+    derivative [1/m] of its height in any direction.
+    """
+    return 0.0, 0.0
+
+
+@generic
+def height_above(
+    kind: KindRecord, part: int, point: Vector, velocity: Vector
+) -> tuple[float, float]:
+    """Height [m] of `point` straight over `part`, which has a `relief`, and its rate [m/s]."""
+    return 1e300, 0.0
 
 
 @generic
@@ -81,6 +108,12 @@ def effort(kind: KindRecord, part: int) -> int:
 def touchable(kind: KindRecord, part: int, point: Vector) -> bool:
     """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
     return True
+
+
+@generic
+def is_inner(kind: KindRecord, part: int, foot: Vector) -> bool:
+    """Whether a closest point `foot` is so far within `part` that it is surely touchable."""
+    return False
 
 
 @generic

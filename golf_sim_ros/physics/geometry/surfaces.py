@@ -39,13 +39,18 @@ RIM_REACH = 0.02  # m: within this of the height of its rim the hole cuts whatev
 BORDER = np.dtype(
     [('start', 'f8', 2), ('direction', 'f8', 2), ('length', 'f8'), ('radius', 'f8')], align=True
 )
+# Borders `first` to before `last`, of one outline, lie between `low` and `high` in plan.
+BORDER_LINE = np.dtype(
+    [('first', 'i8'), ('last', 'i8'), ('low', 'f8', 2), ('high', 'f8', 2)], align=True
+)
 
 
 class Ground(NamedTuple):
     """All that a ball can touch.
 
     ``kinds`` are records of arrays, one a kind; ``borders`` are lines in plan across which another
-    surface or material may begin, of a circle its centre and ``radius``; ``zones`` are polygons
+    surface or material may begin, of a circle its centre and ``radius``, and ``border_lines`` the
+    outlines that they belong to; ``zones`` are polygons
     painted with ``zone_materials``; ``bounds`` holds no polygon or one; ``hole``: none, or x, y,
     radius, least and greatest height of the rim, height of the bottom; ``waters`` lie over it all;
     all ground and water but tilted planes lies between ``lowest`` and ``highest``.
@@ -53,6 +58,7 @@ class Ground(NamedTuple):
 
     kinds: tuple[KindRecord, ...]
     borders: np.ndarray
+    border_lines: np.ndarray
     zones: Regions
     zone_materials: np.ndarray
     bounds: Polygons
@@ -114,7 +120,12 @@ def named_after(law: Callable[..., Any], asked: Function) -> Function:
 
 nearest = of_its_kind(surface_protocol.nearest, (1e300, (0.0, 0.0, 1.0)))
 turn = of_its_kind(surface_protocol.turn, ZERO)
+nearest_turning = of_its_kind(
+    surface_protocol.nearest_turning, (1e300, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+)
 hollow = of_its_kind(surface_protocol.hollow, 0.0)
+relief = of_its_kind(surface_protocol.relief, (0.0, 0.0))
+height_above = of_its_kind(surface_protocol.height_above, (1e300, 0.0))
 effort = of_its_kind(surface_protocol.effort, 1)
 flat_under = of_its_kind(surface_protocol.flat_under, False)
 in_plane = of_its_kind(surface_protocol.in_plane, False)
@@ -122,6 +133,7 @@ is_plane = of_its_kind(surface_protocol.is_plane, False)
 in_cut = of_its_kind(surface_protocol.in_cut, False)
 limit = of_its_kind(surface_protocol.limit, (ZERO, ZERO))
 _touchable = of_its_kind(surface_protocol.touchable, False)
+_is_inner = of_its_kind(surface_protocol.is_inner, False)
 sort = of_its_kind(surface_protocol.sort, surface_protocol.GROUND_SORT)
 _own_material = of_its_kind(surface_protocol.material_of, 0)
 limits = of_its_kind(surface_protocol.limits, 0)
@@ -165,11 +177,23 @@ def goes_on(ground: Ground, part: int, other: int) -> bool:
 @shared
 def touchable(ground: Ground, part: int, point: Vector) -> bool:
     """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
-    if len(ground.hole) > 0 and is_ground(ground, part):
-        distance, normal = nearest(ground, part, point)
-        if in_hole(ground.hole, add_scaled(point, -distance, normal)):
-            return False
-    return _touchable(ground, part, point)
+    if not _touchable(ground, part, point):
+        return False
+    if len(ground.hole) == 0 or not is_ground(ground, part):
+        return True
+    distance, normal = nearest(ground, part, point)
+    return not in_hole(ground.hole, add_scaled(point, -distance, normal))
+
+
+@shared
+def touchable_at(
+    ground: Ground, part: int, point: Vector, distance: float, normal: Vector
+) -> bool:
+    """`touchable`, where `nearest` has given `distance` and `normal` already."""
+    foot = add_scaled(point, -distance, normal)
+    if len(ground.hole) > 0 and is_ground(ground, part) and in_hole(ground.hole, foot):
+        return False
+    return _is_inner(ground, part, foot) or _touchable(ground, part, point)
 
 
 @kernel
@@ -180,6 +204,18 @@ def in_hole(hole: np.ndarray, place: Vector) -> bool:
     return (
         dx * dx + dy * dy < hole[2] * hole[2]
         and hole[3] - RIM_REACH < place[2] < hole[4] + RIM_REACH
+    )
+
+
+@kernel
+def room_in_hole(hole: np.ndarray, place: Vector) -> float:
+    """Way [m] that the ground at `place`, cut away by the hole, is at least from what is not."""
+    dx = place[0] - hole[0]
+    dy = place[1] - hole[1]
+    return min(
+        hole[2] - sqrt(dx * dx + dy * dy),
+        place[2] - hole[3] + RIM_REACH,
+        hole[4] + RIM_REACH - place[2],
     )
 
 

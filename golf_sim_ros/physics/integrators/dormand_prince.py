@@ -18,14 +18,16 @@ J. R. Dormand, P. J. Prince, "A family of embedded Runge-Kutta formulae", J. Com
 (1980) 19-26.
 """
 
-from math import sqrt
+from math import inf, sqrt
 from typing import NamedTuple
 
 import numpy as np
 
 from . import rk4, runge_kutta
+from ..jit import kernel
 from ..kernel_types import BallRecord
-from ..state.ball import FLIGHT
+from ..mechanics.vector import dot, load
+from ..state.ball import FLIGHT, ROLL
 
 # fmt: off
 TABLE = np.array([
@@ -48,10 +50,10 @@ MOST_GROWTH = 4.0  # from one step to the next
 # hundreds.
 STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
-# Along the ground, where a ball must be slow to stop, errors count more; and coarser steps save
-# nothing, for events and the ground's curvature end them.
-ON_GROUND = 0.2  # of the tolerance
-MOST_ON_GROUND = 1e-5  # m
+# Along the ground, where a ball must be slow to stop, errors count more.
+ON_GROUND = 1.0 / 15.0  # of the tolerance
+MOST_ON_GROUND = 1e-3  # m
+LEAST_LEFT = 0.1  # s
 
 
 class DormandPrince(NamedTuple):
@@ -78,8 +80,23 @@ def _error_weights(method: DormandPrince, brief: bool) -> np.ndarray:
 @runge_kutta.allowed.register(DormandPrince)
 def _allowed(method: DormandPrince, ball: BallRecord) -> float:
     if ball['phase'] != FLIGHT:
-        return min(ON_GROUND * method.tolerance, MOST_ON_GROUND)
+        return min(ON_GROUND * method.tolerance, MOST_ON_GROUND) / time_left(ball)
     return LANDED * method.tolerance if ball['landed'] else method.tolerance
+
+
+@kernel
+def time_left(ball: BallRecord) -> float:
+    """Time [s] for which an error of velocity acts on the ground: until a rolling ball stops.
+
+    It is never so short that a ball which turns back on a slope would go astray, nor longer than
+    the weight of such errors says.
+    """
+    if ball['phase'] != ROLL:
+        return runge_kutta.VELOCITY_WEIGHT
+    v = load(ball['stages'][0, 0:3])
+    slowing = -dot(v, load(ball['stages'][0, 3:6]))
+    left = dot(v, v) / slowing if slowing > 0.0 else inf
+    return min(max(left, LEAST_LEFT), runge_kutta.VELOCITY_WEIGHT)
 
 
 @runge_kutta.first_step.register(DormandPrince)

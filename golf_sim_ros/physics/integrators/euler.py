@@ -19,7 +19,8 @@ from typing import NamedTuple
 from . import runge_kutta
 from ..kernel_types import BallRecord, ModelRecord
 from ..mechanics.vector import add_scaled, load, scale, store
-from ..state.ball import STEP_END
+from ..state.ball import FLIGHT, STEP_END
+from ..trajectory.equations_of_motion import keep_surface, supporting_surface
 from ..trajectory.segment import fit_segment
 
 
@@ -32,8 +33,9 @@ class SemiImplicitEuler(NamedTuple):
 @runge_kutta.step_by.register(SemiImplicitEuler)
 def _step(method: SemiImplicitEuler, model: ModelRecord, ball: BallRecord) -> None:
     h = min(ball['step'], method.length) if ball['step'] > 0.0 else method.length
-    now = runge_kutta.state_after(ball, runge_kutta.NO_CHANGE)
-    runge_kutta.stage(model, ball, 0, now, ball['begin'])
+    if ball['phase'] == FLIGHT:  # a ball in contact has it: see `runge_kutta.start`
+        now = runge_kutta.state_after(ball, runge_kutta.NO_CHANGE)
+        runge_kutta.stage(model, ball, 0, now, ball['begin'])
     h = runge_kutta.longest(model, ball, h)
     rates = ball['stages'][0]
     force = load(rates[3:6])
@@ -46,6 +48,10 @@ def _step(method: SemiImplicitEuler, model: ModelRecord, ball: BallRecord) -> No
     # A straight line at the new velocity, as such an engine moves the ball.
     fit_segment(ball, scale(h, v1), (v1, v1), ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)), (torque, torque))
     ball['ending'] = STEP_END
+    if ball['phase'] != FLIGHT:
+        end = add_scaled(load(ball['position']), h, v1)
+        distance, normal = supporting_surface(model.land, ball, end)
+        keep_surface(ball, distance, normal)
 
 
 METHOD = SemiImplicitEuler

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..effects import at_time, gravity_at, longest_allowed_step, wind_at
 from ..jit import generic, kernel
-from ..kernel_types import BallRecord, MethodRecord, ModelRecord, MotionState
+from ..kernel_types import BallRecord, MethodRecord, ModelRecord, MotionState, Vector
 from ..mechanics.vector import add_scaled, dot, length, load, store, sub
 from ..state.ball import FLIGHT, STEP_END
 from ..trajectory.equations_of_motion import LEAST_SPEED, rates
@@ -92,8 +92,14 @@ def stage(model: ModelRecord, ball: BallRecord, i: int, state: MotionState, time
     x, y, z, u, v, w, p, q, r = state
     at_time(model.effects, time)
     force, torque = rates(model, ball, (x, y, z), (u, v, w), (p, q, r))
+    store_stage(ball, i, (u, v, w), force, torque)
+
+
+@kernel
+def store_stage(ball: BallRecord, i: int, velocity: Vector, force: Vector, torque: Vector) -> None:
+    """Store the rates of stage `i`. Writes stages, evaluations."""
     row = ball['stages'][i]
-    store(row[0:3], (u, v, w))
+    store(row[0:3], velocity)
     store(row[3:6], force)
     store(row[6:9], torque)
     ball['evaluations'] += 1
@@ -163,15 +169,17 @@ def error_in_metres(ball: BallRecord, weights: np.ndarray, h: float) -> float:
 def start(model: ModelRecord, ball: BallRecord, last: int) -> None:
     """Begin with the first stage.
 
-    After a whole step it is that step's `last` one (FSAL), else a new evaluation. Writes stages,
-    evaluations.
+    After a whole step it is that step's `last` one (FSAL), else a new evaluation. A ball in
+    contact has it already: its rates told how long the step may be. Writes stages, evaluations.
     """
+    if ball['phase'] != FLIGHT:
+        return
     goes_on = (
         ball['step'] > 0.0
         and ball['last_stage_time'] == ball['begin']
         and not ball['time_stepping']
     )
-    if ball['phase'] == FLIGHT and goes_on:
+    if goes_on:
         ball['stages'][0] = ball['stages'][last]
     else:
         stage(model, ball, 0, state_after(ball, NO_CHANGE), ball['begin'])

@@ -117,7 +117,8 @@ BALL = np.dtype(
         ('ending', 'i8'),
         ('target', 'i8'),
         # the integrator's next step, 0 for a first one, and its stages: rates of position,
-        # velocity, spin; the time of the last stage, which the next step starts from, or -1 where
+        # velocity, spin, and in the last row, for a ball in contact, what is under it: see
+        # `keep_surface`; the time of the last stage, which the next step starts from, or -1 where
         # it can't
         ('step', 'f8'),
         ('stages', 'f8', (8, 9)),

@@ -27,6 +27,7 @@ from ..mechanics.vector import (
     length,
     load,
     scale,
+    store,
     sub,
     tangential,
     unit,
@@ -35,14 +36,22 @@ from ..mechanics.vector import (
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
+KEPT = 7  # row of ``stages`` that no stage is in
 STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is only stiff
+
+# Distance [m] of a place from the surface that supports a ball, the normal there, and its rate of
+# change [rad/s].
+TurningSurface = tuple[float, Vector, Vector]
 
 
 @kernel
 def rates(
     model: ModelRecord, ball: BallRecord, position: Vector, velocity: Vector, spin: Vector
 ) -> tuple[Vector, Vector]:
-    """Acceleration and angular acceleration of a ball, in flight, under water or in contact."""
+    """Acceleration and angular acceleration of a ball, in flight, under water or in contact.
+
+    Writes stages.
+    """
     if ball['water'] > 0:
         return sinking(model.effects, position, velocity), ZERO
     if ball['phase'] == FLIGHT:
@@ -141,20 +150,49 @@ def supporting_surface(land: Land, ball: BallRecord, place: Vector) -> tuple[flo
 
 
 @kernel
-def turn_of_normal(land: Land, ball: BallRecord, place: Vector, velocity: Vector) -> Vector:
-    """Rate of change of the normal of the supporting surface, as the ball moves at `velocity`."""
+def turning_surface(
+    land: Land, ball: BallRecord, place: Vector, velocity: Vector
+) -> TurningSurface:
+    """`supporting_surface`, and the rate of change of its normal as the ball moves."""
     if ball['on_flat'] == 1:
-        return ZERO
-    return surfaces.turn(land.ground, ball['support'], place, velocity)
+        distance, normal = supporting_surface(land, ball, place)
+        return distance, normal, ZERO
+    return surfaces.nearest_turning(land.ground, ball['support'], place, velocity)
 
 
-@shared
+@kernel
+def keep_surface(ball: BallRecord, distance: float, normal: Vector) -> None:
+    """Keep what is under the ball at the latest stage, or at the segment's end. Writes stages."""
+    row = ball['stages'][KEPT]
+    store(row[0:3], normal)
+    row[3] = distance
+
+
+@kernel
+def kept_surface(ball: BallRecord) -> tuple[float, Vector]:
+    """`supporting_surface` that `keep_surface` has kept."""
+    row = ball['stages'][KEPT]
+    return row[3], load(row[0:3])
+
+
+@kernel
 def contact_rates(
     land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
 ) -> tuple[Vector, Vector, float, float]:
+    """`rates_on` the surface that supports the ball, which is kept. Writes stages."""
+    surface = turning_surface(land, ball, place, velocity)
+    keep_surface(ball, surface[0], surface[1])
+    return rates_on(land, ball, surface, (place, velocity, spin))
+
+
+@shared
+def rates_on(
+    land: Land, ball: BallRecord, surface: TurningSurface, motion: tuple[Vector, Vector, Vector]
+) -> tuple[Vector, Vector, float, float]:
     """Acceleration, angular acceleration, press, and friction needed to roll.
 
-    Of a ball in contact. A press below 0 means that the ground would have to pull.
+    Of a ball in contact with a `surface`; its `motion` is position, velocity and spin. A press
+    below 0 means that the ground would have to pull.
 
     With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
     mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =
@@ -165,8 +203,8 @@ def contact_rates(
     """
     r = land.ball.radius
     k = land.ball.inertia
-    _, normal = supporting_surface(land, ball, place)
-    turn = turn_of_normal(land, ball, place, velocity)
+    place, velocity, spin = motion
+    _, normal, turn = surface
     # Micro-bounces have the force of all air already.
     tail = ball['micro_bounce_end'] > ball['begin']
     pull = gravity_at(land.effects, place) if tail else pull_at(land, place, velocity, spin)
