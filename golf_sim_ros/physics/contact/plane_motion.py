@@ -89,9 +89,9 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
         braking = material['dynamic_friction'] * press
         u = slip(v, load(ball['spin']), normal, land.ball.radius)
         growth *= 1.0 + k
-        # What grows with speed brakes the centre alone: where the ball spins faster than it rolls
-        # it drives slip, and may do so harder than friction ends it.
-        losing = (1.0 + 1.0 / k) * braking + growth * length(v) * dot(v, unit(u, ZERO))
+        # What grows with speed brakes the centre alone, and so drives slip: where friction can't
+        # hold it, slip does not end, or begins anew the other way.
+        losing = (1.0 + 1.0 / k) * braking - growth * dot(v, v)
         if losing < LEAST_BRAKE:
             return False
         time = length(u) / losing
