@@ -380,7 +380,7 @@ def play_all(
 def follow(records: Effects, effects: Effects, now: float, value: np.ndarray) -> None:
     """Set the live parameter of `records`, some of the `effects`, at a time `now`.
 
-    Writes into the records.
+    Writes records and effects.
     """
     at_time(effects, now)
     for record in literal_unroll(records):
