@@ -151,6 +151,11 @@ materials = st.builds(
     numbers(0, 1.5),
     of(()),
     of(0.0),
+    # named, or they are drawn from all floats: of sandy and of long grass
+    resistance_growth=of(0.0) | numbers(0, 0.1),
+    ploughing=of(0.0) | numbers(0, 1),
+    roughness=of(0.0),
+    canopy_drag=of(0.0),
 )
 patches = st.builds(
     Patch,
