@@ -107,6 +107,8 @@ def color_at(page, look):
         v.renderer.setAnimationLoop(null);
         v.camera.up.set(0, 0, 1);
         {look};
+        v.scene.traverse((thing) => (thing.castShadow = false));  // what a place has by itself
+        v.renderer.shadowMap.needsUpdate = true;
         for (const ball of v.balls) ball.mesh.visible = ball.shadow.visible = false;
         v.renderer.render(v.scene, v.camera);
         return v.renderer.domElement.toDataURL();
