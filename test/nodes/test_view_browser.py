@@ -214,6 +214,26 @@ def test_one_click_is_one_strike_one_result_and_its_cards(open_page, hole):
         assert f'{result[key]:.0f} m' in cards
     assert page.evaluate('golf.hud.state.result.shot') == 1
     wait_until(button.is_enabled, 'the ball can be struck again')
+    page.evaluate("golf.onEvent({ kind: 'course', url: golf.url })")  # the hole begins anew
+    assert page.evaluate('golf.view.balls.map((ball) => ball.tracer.count)') == [0]
+    assert page.inner_text('.golf .cards') == ''
+    assert page.errors == []
+
+
+def test_arrows_aim_after_the_mouse_has_chosen(open_page, hole):
+    page = open_page(hole[1])
+    page.set_default_timeout(PATIENCE)
+    page.set_viewport_size({'width': 640, 'height': 560})  # the clubs' list has place
+    page.wait_for_function('golf.view.hint && golf.view.hint.count > 5')  # a club was suggested
+    told = page.locator('.strike .told', has_text='Aim')
+    page.locator('.strike .q-select').click()
+    page.get_by_role('option', name='5i').click()
+    page.get_by_role('listbox').wait_for(state='detached')
+    page.keyboard.press('ArrowLeft')
+    wait_until(lambda: '0.4° left' in told.inner_text(), 'it aims after a club was chosen')
+    page.locator('.strike .q-slider').first.click()
+    page.keyboard.press('ArrowLeft')
+    wait_until(lambda: '0.8° left' in told.inner_text(), 'it aims after the power was set')
     assert page.errors == []
 
 
