@@ -68,6 +68,8 @@ async def rounds(game: Any, options: Any) -> int:
         await asyncio.wait((playing, watching), return_when=asyncio.FIRST_COMPLETED)
         if playing.done():
             return playing.result()
+        playing.cancel()
+        await asyncio.gather(playing, return_exceptions=True)
         failed(trouble(game))
         return 1
     finally:
@@ -147,7 +149,11 @@ async def typed(session: Session, worker: Worker, game: Any, units: str) -> bool
     print(HELP, end='')
     while not session.is_over:
         print(situation(session, units), end='', flush=True)
-        line = await next_line()
+        try:
+            line = await next_line()
+        except asyncio.CancelledError:
+            print(flush=True)  # what is told next begins a line
+            raise
         if line is None or line.strip() in ('q', 'quit', 'exit'):
             return False
         stroke = await understood(line, session, worker)
@@ -226,10 +232,10 @@ def advice(stroke: Stroke) -> str:
 
 def situation(session: Session, units: str) -> str:
     """Describe where the ball lies: stroke, way, wind, a club."""
-    length, lie = UNITS[units].length, session.lie
+    length, speed, lie = UNITS[units].length, UNITS[units].speed, session.lie
     way = way_to_hole(session)
     wind = hypot(*session.wind[:2])
-    blows = f', wind {wind:.1f} m/s' if wind > 0.1 else ''
+    blows = f', wind {wind / speed.size:.1f} {speed.name}' if wind > 0.1 else ''
     putts = lie is not None and caddie.is_putt(lie.course, lie.place)
     likely = PUTTER if putts else caddie.likely_clubs(way)[0]
     carry = CLUBS[likely].carry

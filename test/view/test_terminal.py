@@ -66,6 +66,9 @@ def test_advice_can_be_typed(session):
 
 def test_where_the_ball_lies_is_told(session):
     assert terminal.situation(session, 'si').startswith('stroke 1, 346.1 m to the hole [driver')
+    session.wind = (3.0, -4.0, 0.0)
+    assert ', wind 5.0 m/s ' in terminal.situation(session, 'si')
+    assert ', wind 11.2 mph ' in terminal.situation(session, 'golf')
 
 
 def test_a_course_that_cannot_be_read_and_a_sim_that_ended_are_told(session):
