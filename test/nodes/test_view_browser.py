@@ -243,6 +243,18 @@ def test_cameras_units_and_hints_follow_keys_and_switches(open_page, hole):
     for key, mode in enumerate(('behind', 'broadcast', 'above', 'pin', 'free'), 1):
         page.keyboard.press(str(key))
         assert page.evaluate('golf.view.cameras.mode') == mode
+    early, late = page.evaluate(
+        """() => {
+        const v = golf.view;
+        golf.hud.choose('behind');
+        v.cameras.jump = v.changed = true;
+        v.step(performance.now() / 1000);
+        const early = golf.hud.pin.style.transform;
+        golf.hud.placePin(v.balls[0]);
+        return [early, golf.hud.pin.style.transform];
+        }"""
+    )
+    assert early == late, 'the label is over the flag of the picture that is drawn'
     assert ' m' in page.inner_text('.golf .head')
     page.keyboard.press('u')
     page.wait_for_function("golf.hud.head.innerText.includes('yd')", timeout=PATIENCE)

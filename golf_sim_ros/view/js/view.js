@@ -226,6 +226,7 @@ export class GolfView {
     const ball = this.balls[this.followed] ?? this.ball(0);
     const before = this.camera.position.clone();
     this.cameras.update(Math.min(since, 0.3), ball, this.land);
+    this.camera.updateMatrixWorld(); // what lies over the picture is placed before it is drawn
     this.changed ||= before.distanceTo(this.camera.position) > 1e-3;
     // From afar the flag is drawn larger; the one map of shadows is made of it as it is.
     const far = this.renderer.shadowMap.needsUpdate ? 1 : this.camera.position.distanceTo(this.pin?.position ?? this.camera.position);
