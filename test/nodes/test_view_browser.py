@@ -220,23 +220,6 @@ def test_one_click_is_one_strike_one_result_and_its_cards(open_page, hole):
     assert page.errors == []
 
 
-def test_arrows_aim_after_the_mouse_has_chosen(open_page, hole):
-    page = open_page(hole[1])
-    page.set_default_timeout(PATIENCE)
-    page.set_viewport_size({'width': 640, 'height': 560})  # the clubs' list has place
-    page.wait_for_function('golf.view.hint && golf.view.hint.count > 5')  # a club was suggested
-    told = page.locator('.strike .told', has_text='Aim')
-    page.locator('.strike .q-select').click()
-    page.get_by_role('option', name='5i').click()
-    page.get_by_role('listbox').wait_for(state='detached')
-    page.keyboard.press('ArrowLeft')
-    wait_until(lambda: '0.4° left' in told.inner_text(), 'it aims after a club was chosen')
-    page.locator('.strike .q-slider').first.click()
-    page.keyboard.press('ArrowLeft')
-    wait_until(lambda: '0.8° left' in told.inner_text(), 'it aims after the power was set')
-    assert page.errors == []
-
-
 def test_cameras_units_and_hints_follow_keys_and_switches(open_page, hole):
     page = open_page(hole[1])
     page.wait_for_function('golf.ready', timeout=PATIENCE)
