@@ -147,7 +147,7 @@ class Game:
 def in_browser(options: argparse.Namespace) -> int:
     """Serve the page; return the exit code."""
     from ..view import page, server
-    from ..view.demo import demonstrate
+    from ..view.demo import demonstrate, until
     from ..view.worker import Worker
 
     place, game, worker = place_of(options), Game(options), Worker()
@@ -158,6 +158,15 @@ def in_browser(options: argparse.Namespace) -> int:
     )
     server.at_start(game.begin)
     tasks = []
+
+    async def watch(own: OwnSim) -> None:
+        await until(lambda: own.ending)
+        session.on_ending(own.ending)
+        failed(session.problem)
+
+    if game.own:
+        watching = watch(game.own)
+        server.at_start(lambda: tasks.append(asyncio.create_task(watching)))
     if options.demo:
         demo = demonstrate(session, worker, game, lambda: bool(session.feed.clients))
         server.at_start(lambda: tasks.append(asyncio.create_task(demo)))

@@ -45,6 +45,7 @@ class OwnSim:
     def __init__(self, namespace: str, parameters: Sequence[str] = (), wind: float = 0.0) -> None:
         self.namespace, self.parameters, self.wind = namespace, list(parameters), wind
         self.processes: list[subprocess.Popen] = []
+        self.programs: list[str] = []
 
     def start(self, course: str) -> None:
         """Start the processes of a sim on a course, in place of those that run."""
@@ -57,6 +58,7 @@ class OwnSim:
     def run(self, program: str, parameters: Sequence[str]) -> None:
         """Start one process."""
         given = [part for parameter in parameters for part in ('-p', parameter)]
+        self.programs.append(program)
         self.processes.append(
             subprocess.Popen(
                 [
@@ -68,27 +70,35 @@ class OwnSim:
         )
 
     @property
-    def has_ended(self) -> bool:
-        """Whether a process ended by itself."""
-        return any(process.poll() is not None for process in self.processes)
+    def ending(self) -> str:
+        """Which process ended by itself, and how; '' where all run."""
+        for program, process in zip(self.programs, self.processes):
+            if process.poll() is not None:
+                return f'{program} has ended by itself, with code {process.returncode}'
+        return ''
 
     def interrupt(self) -> None:
         """Tell the processes to end."""
-        for process in self.processes:
-            if process.poll() is None:
-                process.send_signal(signal.SIGINT)
+        send_interrupt(self.processes)
 
     def stop(self) -> None:
         """End the processes."""
-        self.interrupt()
+        ending, self.processes, self.programs = self.processes, [], []
+        send_interrupt(ending)
         until = monotonic() + PATIENCE
-        while monotonic() < until and any(p.poll() is None for p in self.processes):
+        while monotonic() < until and any(p.poll() is None for p in ending):
             sleep(LOOK)
-        for process in self.processes:
+        for process in ending:
             if process.poll() is None:
                 process.kill()
             process.wait()
-        self.processes = []
+
+
+def send_interrupt(processes: Sequence[subprocess.Popen]) -> None:
+    """Tell processes that run to end."""
+    for process in processes:
+        if process.poll() is None:
+            process.send_signal(signal.SIGINT)
 
 
 def own_namespace() -> str:

@@ -34,7 +34,8 @@ from ..shot_input.units import UNITS
 THREE = scene.Scene  # its import registers the library that draws, which our component imports
 PATIENCE = 0.15  # s without a change after which a prediction is asked for
 MOST_PUTT = 9.0  # m/s
-SHORT = 20.0  # m below which distances are told in feet, or to a decimetre
+SHORT, SHORTER = 25.0, 3.0  # m below which distances are told in feet, and to a tenth
+LEAST_APEX = 0.1  # m that a ball rises at least if it flew: a putt that drops in has a carry, too
 STYLE = """
 .nicegui-content{padding:0}
 .strike{position:absolute;right:16px;bottom:16px;width:252px;z-index:3;gap:0;
@@ -46,7 +47,17 @@ STYLE = """
 .strike .foot{display:flex;gap:8px;width:100%;margin-top:8px;align-items:stretch}
 .strike .q-toggle{font-size:26px}
 .strike .aside{opacity:.85;font-size:12px;min-height:18px;width:100%}
+.strike .aside.old{opacity:.35}
 .card-table{width:100%}
+"""
+
+
+# Keys go to what has the focus. What the mouse has pressed lets go of it: arrows aim again.
+FREE_KEYS = """
+addEventListener("pointerup", () => setTimeout(() => {
+  const at = document.activeElement;
+  if (at?.closest(".strike") && at.tagName !== "INPUT") at.blur();
+}));
 """
 
 
@@ -104,12 +115,14 @@ class PlayPage:
     ) -> None:
         self.session, self.worker, self.hit, self.go_on = session, worker, strike, go_on
         self.units, self.asked, self.told_end = units, 0, False
+        self.predicting = asyncio.Lock()
         self.shown: Lie | None = None  # what the hints are of
         self.could: bool | None = None
         dress('golf_sim_ros: play')
         self.scene = GolfScene(feed='/feed', units=units)
         self.panel()
         self.card_dialog()
+        ui.add_body_html(f'<script>{FREE_KEYS}</script>')
         ui.keyboard(on_key=self.on_key)
         self.client = ui.context.client
         self.client.on_delete(session.listen(self.update))
@@ -126,6 +139,7 @@ class PlayPage:
         names = {name: club_label(name, self.units) for name in CLUBS}
         with ui.column().classes('strike'):
             self.club = ui.select(names, value='driver', on_change=self.on_club)
+            self.club.on('popup-hide', js_handler='() => document.activeElement?.blur()')
             self.club.props('dark dense options-dense borderless').style('width:100%')
             self.power = self.slider('Power', 8, 110, 100, 1, self.power_text)
             self.aim = self.slider('Aim', -40, 40, 0, 0.2, self.aim_text)
@@ -166,7 +180,8 @@ class PlayPage:
     def power_text(self, value: float) -> str:
         """Power in percent; of a putt the ball's speed."""
         if self.club.value == PUTTER:
-            return f'<b>{value / 100 * MOST_PUTT:.2f} m/s</b>'
+            speed = UNITS[self.units].speed
+            return f'<b>{value / 100 * MOST_PUTT / speed.size:.2f} {speed.name}</b>'
         return f'<b>{value:.0f} %</b>'
 
     def aim_text(self, value: float) -> str:
@@ -225,11 +240,17 @@ class PlayPage:
     def on_change(self) -> None:
         """Ask where the shot would go, unless it changes again soon."""
         self.asked += 1
+        self.aside.classes('old')
         background_tasks.create(self.predict(self.asked), name='predict')
 
     async def predict(self, number: int) -> None:
         """Show where the shot would go."""
         await asyncio.sleep(PATIENCE)
+        async with self.predicting:  # what is no longer asked is not asked of the worker
+            await self.answer(number)
+
+    async def answer(self, number: int) -> None:
+        """Show where the shot would go, if that is what was asked last."""
         session = self.session
         if number != self.asked or self.client.is_deleted:
             return
@@ -246,6 +267,7 @@ class PlayPage:
         if answer and session.can_strike():
             self.scene.run_method('predict', answer)
             self.aside.set_text(told(answer, self.units))
+            self.aside.classes(remove='old')
 
     async def read_green(self, lie: Lie) -> None:
         """Show the slopes of the green, then the line that holes."""
@@ -269,17 +291,28 @@ class PlayPage:
         self.hit(velocity, spin)
 
     def on_key(self, event: events.KeyEventArguments) -> None:
-        """Strike with space, aim with the arrows."""
+        """Strike with space, aim with the arrows, change the units with u."""
         if not event.action.keydown:
             return
         if event.key == ' ' and not event.action.repeat:
             self.strike()
+        elif event.key == 'u' and not event.action.repeat:
+            self.toggle_units()
         elif event.key.arrow_left or event.key.arrow_right:
             self.aim.value = round(self.aim.value + (0.4 if event.key.arrow_right else -0.4), 2)
         elif event.key.arrow_up or event.key.arrow_down:
             self.power.value = min(
                 110, max(8, self.power.value + (1 if event.key.arrow_up else -1))
             )
+
+    def toggle_units(self) -> None:
+        """Tell all in the other units, as the picture does by itself."""
+        self.units = 'si' if self.units == 'golf' else 'golf'
+        self.club.set_options({name: club_label(name, self.units) for name in CLUBS})
+        self.power.told.set_content(self.power_text(self.power.value))
+        self.on_change()
+        if self.dialog.value:
+            self.show_card()
 
     def update(self) -> None:
         """Follow the session: the button, the hints at a new place, the card at the end."""
@@ -345,24 +378,26 @@ def club_label(name: str, units: str) -> str:
     return f'{name}, carries {carry / length.size:.0f} {length.name}' if carry else name
 
 
+def distance(meters: float, units: str) -> str:
+    """Tell a distance as players do: near the hole in feet, or to a decimetre."""
+    if units == 'golf':
+        if meters < SHORT:
+            return f'{meters / 0.3048:.{int(meters < SHORTER)}f} ft'
+        return f'{meters / 0.9144:.0f} yd'
+    return f'{meters:.{int(meters < SHORT)}f} m'
+
+
 def told(answer: dict[str, Any], units: str) -> str:
     """Put a prediction into words."""
-
-    def show(meters: float) -> str:
-        small = meters < SHORT
-        name, size = {('golf', True): ('ft', 0.3048), ('golf', False): ('yd', 0.9144)}.get(
-            (units, small), ('m', 1.0)
-        )
-        return f'{meters / size:.{int(small)}f} {name}'
-
-    ends = {'water': 'in the water', 'out_of_bounds': 'out of bounds', 'holed': 'in the hole'}
-    end = ends.get(answer['status'], answer['lie'].replace('_', ' '))
-    if answer['status'] != 'at_rest' or answer['to_hole'] is None:
-        return f'{show(answer["total"])}, {end}'
-    left = answer['to_hole']
-    return f'{show(answer["total"])}, {end}, {show(left)} left'
+    total = distance(answer['total'], units)
+    status, lie = answer['status'], answer['lie'].replace('_', ' ')
+    end = lie if status == 'at_rest' else ending(status)
+    if status != 'at_rest' or answer['to_hole'] is None:
+        return f'{total}, {end}'
+    return f'{total}, {end}, {distance(answer["to_hole"], units)} to the hole'
 
 
+ENDS = {'water': 'in the water', 'out_of_bounds': 'out of bounds', 'holed': 'in the hole'}
 COLUMNS = [
     {'name': name, 'label': label, 'field': name, 'align': align}
     for name, label, align in (
@@ -379,25 +414,28 @@ COLUMNS = [
 
 def card_rows(lines: list[Line], units: str) -> list[dict[str, Any]]:
     """Rows of a hole's card."""
-    length = UNITS[units].length
 
-    def show(meters: float | None) -> str:
-        return '' if meters is None else f'{meters / length.size:.1f} {length.name}'
-
-    ends = {'at_rest': '', 'holed': 'holed', 'water': 'water', 'out_of_bounds': 'out of bounds'}
-    return [
-        {
+    def row(line: Line) -> dict[str, Any]:
+        result = line.result
+        flew, holed = result.get('apex', 0.0) > LEAST_APEX, result['status'] == 'holed'
+        lie = (result['lie'] or '').replace('_', ' ')
+        to_hole = None if holed else result['to_hole']
+        return {
             'stroke': line.stroke,
             'club': line.club,
-            'carry': show(line.result['carry'] or None),
-            'total': show(line.result['total']),
-            'end': ends.get(line.result['status'], line.result['status'])
-            or line.result['lie'].replace('_', ' '),
-            'to_hole': show(line.result['to_hole']),
+            'carry': distance(result['carry'], units) if flew else '',
+            'total': distance(result['total'], units),
+            'end': lie if result['status'] == 'at_rest' else ending(result['status']),
+            'to_hole': '' if to_hole is None else distance(to_hole, units),
             'penalty': f'+{line.penalty}' if line.penalty else '',
         }
-        for line in lines
-    ]
+
+    return [row(line) for line in lines]
+
+
+def ending(status: str) -> str:
+    """Tell how a shot ended that did not come to rest."""
+    return ENDS.get(status, status.replace('_', ' '))
 
 
 def fill_card(session: Session, units: str, go_on: Callable[..., Any] | None) -> None:

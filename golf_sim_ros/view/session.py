@@ -56,6 +56,7 @@ class Session:
         self.sent_at: float | None = None
         self.flying: dict[int, int] = {}  # shots by ball
         self.ended: set[int] = set()  # numbers of shots that are over
+        self.struck = 0  # number of the last strike
         self.places: dict[int, Place] = {}
         self.wind: Place = (0.0, 0.0, 0.0)
         self.changed: list[Callable[[], Any]] = []  # called after each change, by pages
@@ -105,7 +106,7 @@ class Session:
         self.reached = reached
         text = self.problem or ('The sim is paused' if paused else '')
         if not reached:
-            text = AWAY if self.course or offered else NOT_YET
+            text = self.problem or (AWAY if self.course or offered else NOT_YET)
         self.feed.say(reached, text)
         self.notify()
 
@@ -114,18 +115,39 @@ class Session:
         self.problem = f'{reason}; --course names the course'
         self.feed.say(self.reached, self.problem)
 
+    def on_ending(self, reason: str) -> None:
+        """Take that a process of one's own has ended, and does not come back."""
+        self.problem = f'{reason}: start play_hole anew'
+        self.feed.say(False, self.problem)
+
     def on_begin(self, course: Course, data: CourseData, names: list[str]) -> None:
         """Take a sim's start: course and balls."""
         self.course, self.names, self.problem = course, names, ''
-        self.flying, self.ended, self.places, self.sent_at = {}, set(), {}, None
+        self.flying, self.ended, self.struck = {}, set(), 0
+        self.places, self.sent_at = {}, None
         self.feed.show_course(data, names)
         self.feed.say(self.reached, '' if self.reached else self.feed.status['text'])
         if self.is_game and course.hole:
             self.round.begin(course)
         self.notify()
 
+    def on_reset(self) -> None:
+        """Take that all balls are back at the start, where the hole begins anew."""
+        late = (
+            max(self.ended, default=0) > self.struck
+        )  # told of again, and shots since were heard
+        if self.course is None or self.feed.course is None or late:
+            return
+        self.flying, self.places, self.sent_at = {}, {}, None
+        self.feed.show_course(self.feed.course, self.names)
+        if self.is_game and self.round.holes:
+            self.round.holes.pop()
+            self.round.begin(self.course)
+        self.notify()
+
     def on_strike(self, ball: str, time: float, shot: int) -> None:
         """Take that a strike was played."""
+        self.struck = max(self.struck, shot)
         if shot in self.ended or ball not in self.names:
             return
         number = self.names.index(ball)

@@ -135,7 +135,7 @@ class SimLink:
             self.tell(self.session.on_reach, *state)
 
     def on_journal(self, message: String) -> None:
-        """Take the sim's configuration, and each strike."""
+        """Take the sim's configuration, each strike and each reset."""
         try:
             entry = opened(message.data)
         except JournalError:
@@ -145,6 +145,8 @@ class SimLink:
         elif entry['kind'] == 'strike' and self.start is not None and entry['ball'] in self.names:
             time = entry['tick'] / self.rate
             self.tell(self.session.on_strike, entry['ball'], time, entry['shot'])
+        elif entry['kind'] == 'reset' and self.start is not None:
+            self.tell(self.session.on_reset)
 
     def begin(self, config: dict[str, Any]) -> None:
         """Follow a sim that has just been started, or that is newly seen."""

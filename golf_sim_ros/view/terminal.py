@@ -15,6 +15,7 @@
 """Holes in the terminal: what is asked, what is typed, the card."""
 
 import asyncio
+from collections.abc import Callable
 from math import hypot
 import signal
 import sys
@@ -53,38 +54,70 @@ def play(game: Any, options: Any) -> int:
 
 
 async def rounds(game: Any, options: Any) -> int:
-    """Play all holes, until input ends or a signal comes."""
+    """Play all holes, until input ends, a signal comes or there is nothing left to play on."""
     loop, task = asyncio.get_running_loop(), asyncio.current_task()
     for number in (signal.SIGINT, signal.SIGTERM):
         if task is not None:
             loop.add_signal_handler(number, task.cancel)
     worker = Worker()
+    forget = game.session.listen(tell_status(game))
     game.begin()
+    playing = asyncio.create_task(holes(game, options, worker))
+    watching = asyncio.create_task(until(lambda: trouble(game)))
     try:
-        while True:
-            session = game.session
-            await until(lambda: session.can_strike() or trouble(game))
-            if trouble(game):
-                print(f'play_hole: {trouble(game)}', file=sys.stderr, flush=True)
-                return 1
-            tee_off(session, options.units)
-            if options.demo:
-                await demonstrated(session, worker, game, options.units)
-            elif not await typed(session, worker, game, options.units):
-                return 0
-            print(card(session.round.hole), flush=True)
-            if game.is_last:
-                return 0
-            await game.go_on()
-            session.course = None
+        await asyncio.wait((playing, watching), return_when=asyncio.FIRST_COMPLETED)
+        if playing.done():
+            return playing.result()
+        playing.cancel()
+        await asyncio.gather(playing, return_exceptions=True)
+        failed(trouble(game))
+        return 1
     finally:
+        forget()
+        for each in (playing, watching):
+            each.cancel()
+        await asyncio.gather(playing, watching, return_exceptions=True)
         await worker.ended()
+
+
+async def holes(game: Any, options: Any, worker: Worker) -> int:
+    """Play all holes, or until input ends; return the exit code."""
+    session = game.session
+    while True:
+        await until(session.can_strike)
+        tee_off(session, options.units)
+        if options.demo:
+            await demonstrated(session, worker, game, options.units)
+        elif not await typed(session, worker, game, options.units):
+            return 0
+        print(card(session.round.hole), flush=True)
+        if game.is_last:
+            return 0
+        await game.go_on()
+        session.course = None
+
+
+def failed(reason: str) -> None:
+    """Print why nothing happens, on a line of its own."""
+    print(f'play_hole: {reason}', file=sys.stderr, flush=True)
+
+
+def tell_status(game: Any) -> Callable[[], None]:
+    """Print, where another's sim is played, whenever it cannot be reached, is paused, is back."""
+    told = ['']
+
+    def tell() -> None:
+        text = game.session.feed.status['text']
+        if game.own is None and text != told[0] and not game.session.problem:
+            told[0] = text
+            failed(text or 'The sim is reached')
+
+    return tell
 
 
 def trouble(game: Any) -> str:
     """Why there is nothing to play; '' where there is, or may be soon."""
-    ended = game.own is not None and game.own.has_ended
-    return game.session.problem or ('the sim has ended' if ended else '')
+    return game.session.problem or (game.own.ending if game.own is not None else '')
 
 
 def tee_off(session: Session, units: str) -> None:
@@ -116,7 +149,11 @@ async def typed(session: Session, worker: Worker, game: Any, units: str) -> bool
     print(HELP, end='')
     while not session.is_over:
         print(situation(session, units), end='', flush=True)
-        line = await next_line()
+        try:
+            line = await next_line()
+        except asyncio.CancelledError:
+            print(flush=True)  # what is told next begins a line
+            raise
         if line is None or line.strip() in ('q', 'quit', 'exit'):
             return False
         stroke = await understood(line, session, worker)
@@ -195,10 +232,10 @@ def advice(stroke: Stroke) -> str:
 
 def situation(session: Session, units: str) -> str:
     """Describe where the ball lies: stroke, way, wind, a club."""
-    length, lie = UNITS[units].length, session.lie
+    length, speed, lie = UNITS[units].length, UNITS[units].speed, session.lie
     way = way_to_hole(session)
     wind = hypot(*session.wind[:2])
-    blows = f', wind {wind:.1f} m/s' if wind > 0.1 else ''
+    blows = f', wind {wind / speed.size:.1f} {speed.name}' if wind > 0.1 else ''
     putts = lie is not None and caddie.is_putt(lie.course, lie.place)
     likely = PUTTER if putts else caddie.likely_clubs(way)[0]
     carry = CLUBS[likely].carry
@@ -220,4 +257,5 @@ def described(line: Any, units: str) -> str:
 
 def card(hole: Hole) -> str:
     """Describe the score of a hole."""
-    return f'{hole.name}: {hole.strokes} strokes, {hole.verdict()} (par {hole.par})'
+    strokes = f'{hole.strokes} stroke{"" if hole.strokes == 1 else "s"}'
+    return f'{hole.name}: {strokes}, {hole.verdict()} (par {hole.par})'

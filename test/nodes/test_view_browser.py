@@ -107,6 +107,8 @@ def color_at(page, look):
         v.renderer.setAnimationLoop(null);
         v.camera.up.set(0, 0, 1);
         {look};
+        v.scene.traverse((thing) => (thing.castShadow = false));  // what a place has by itself
+        v.renderer.shadowMap.needsUpdate = true;
         for (const ball of v.balls) ball.mesh.visible = ball.shadow.visible = false;
         v.renderer.render(v.scene, v.camera);
         return v.renderer.domElement.toDataURL();
@@ -212,6 +214,9 @@ def test_one_click_is_one_strike_one_result_and_its_cards(open_page, hole):
         assert f'{result[key]:.0f} m' in cards
     assert page.evaluate('golf.hud.state.result.shot') == 1
     wait_until(button.is_enabled, 'the ball can be struck again')
+    page.evaluate("golf.onEvent({ kind: 'course', url: golf.url })")  # the hole begins anew
+    assert page.evaluate('golf.view.balls.map((ball) => ball.tracer.count)') == [0]
+    assert page.inner_text('.golf .cards') == ''
     assert page.errors == []
 
 
@@ -221,6 +226,18 @@ def test_cameras_units_and_hints_follow_keys_and_switches(open_page, hole):
     for key, mode in enumerate(('behind', 'broadcast', 'above', 'pin', 'free'), 1):
         page.keyboard.press(str(key))
         assert page.evaluate('golf.view.cameras.mode') == mode
+    early, late = page.evaluate(
+        """() => {
+        const v = golf.view;
+        golf.hud.choose('behind');
+        v.cameras.jump = v.changed = true;
+        v.step(performance.now() / 1000);
+        const early = golf.hud.pin.style.transform;
+        golf.hud.placePin(v.balls[0]);
+        return [early, golf.hud.pin.style.transform];
+        }"""
+    )
+    assert early == late, 'the label is over the flag of the picture that is drawn'
     assert ' m' in page.inner_text('.golf .head')
     page.keyboard.press('u')
     page.wait_for_function("golf.hud.head.innerText.includes('yd')", timeout=PATIENCE)

@@ -16,6 +16,7 @@
 
 import asyncio
 import json
+import os
 from pathlib import Path
 import signal
 import socket
@@ -207,6 +208,19 @@ def test_the_demonstration_holes_out_in_the_terminal(start):
     )
     assert process.wait() == 0
     assert 'Putting green: ' in process.output.splitlines()[-1]
+
+
+@pytest.mark.parametrize('program', [b'sim_node', b'wind_node'])
+def test_an_own_process_that_dies_ends_the_terminal_with_one_line_and_code_1(start, program):
+    process = start('cli.play_hole', 'links', '--terminal', '--demo')
+    process.wait_for('Links: par 4')
+    for pid in left_of(process.pid):
+        if program in Path(f'/proc/{pid}/cmdline').read_bytes():
+            os.kill(int(pid), signal.SIGKILL)
+    assert process.wait() == 1
+    told = f'play_hole: {program.decode()} has ended by itself, with code -9'
+    assert process.output.splitlines()[-1] == told
+    assert not left_of(process.pid)
 
 
 def test_what_cannot_be_played_is_one_line(start):

@@ -23,6 +23,7 @@ pytest.importorskip('nicegui')
 
 from golf_sim_ros.view import caddie, page  # noqa: E402, I100
 from golf_sim_ros.view.course_data import CourseData  # noqa: E402
+from golf_sim_ros.view.game import Line  # noqa: E402
 from golf_sim_ros.view.session import Session  # noqa: E402
 from nicegui import ui  # noqa: E402
 from nicegui.testing.general_fixtures import nicegui_reset_globals  # noqa: E402, F401
@@ -168,6 +169,31 @@ def test_hints_can_be_switched_off():
     looked_at(play, look)
 
 
+def test_while_the_worker_is_busy_only_the_latest_question_waits():
+    play = Play()
+
+    async def look(user):
+        await asyncio.sleep(2 * page.PATIENCE)
+        free = asyncio.Event()
+        answer_at_once = play.worker.ask
+
+        async def answer_later(question, lie, **given):
+            play.worker.asked.append((question, given))
+            await free.wait()
+
+        play.worker.asked.clear()
+        play.worker.ask = answer_later
+        for aim in (1.0, 2.0, 3.0, 4.0):
+            play.page.aim.value = aim
+            await asyncio.sleep(2 * page.PATIENCE)
+        play.worker.ask = answer_at_once
+        free.set()
+        await asyncio.sleep(2 * page.PATIENCE)
+        assert [given['stroke']['aim'] for _, given in play.worker.asked] == [1.0, 4.0]
+
+    looked_at(play, look)
+
+
 def test_the_card_opens_at_the_end_and_goes_on():
     went_on = []
 
@@ -184,6 +210,74 @@ def test_the_card_opens_at_the_end_and_goes_on():
         user.find('Play on').click()
         await asyncio.sleep(0.1)
         assert went_on
+
+    looked_at(play, look)
+
+
+def test_a_reset_begins_the_hole_anew():
+    play = Play()
+
+    async def look(user):
+        play.session.on_strike('ball', 1.0, 1)
+        play.session.on_result({**RESULT, 'status': 'holed', 'to_hole': 0.0})
+        assert play.session.is_over
+        play.session.on_reset()
+        assert not play.page.button.enabled
+        play.session.on_pose(0, 9.0, (0.0, 0.0, 0.02), False)
+        assert play.page.button.enabled
+        assert [hole.strokes for hole in play.session.round.holes] == [0]
+
+    looked_at(play, look)
+
+
+def test_a_reset_that_is_told_after_a_newer_result_changes_nothing():
+    session = Play().session
+    session.on_strike('ball', 1.0, 1)
+    session.on_result({**RESULT, 'shot': 2})
+    session.on_reset()
+    assert session.places and session.round.hole.strokes == 1
+
+
+def test_a_sim_of_ones_own_that_has_ended_is_told_for_good():
+    session = Play().session
+    session.on_ending('sim_node has ended by itself, with code -9')
+    session.on_reach(False, False, True)
+    assert session.feed.status['text'].startswith('sim_node has ended by itself, with code -9')
+
+
+@pytest.mark.parametrize(
+    'units, meters, told',
+    [
+        ('golf', 0.0, '0.0 ft'),
+        ('golf', 2.07, '6.8 ft'),
+        ('golf', 10.3, '34 ft'),
+        ('golf', 67.9, '74 yd'),
+        ('si', 2.07, '2.1 m'),
+        ('si', 67.9, '68 m'),
+    ],
+)
+def test_distances_are_told_as_players_do(units, meters, told):
+    assert page.distance(meters, units) == told
+
+
+def test_a_putt_has_no_carry_on_the_card_and_a_holed_ball_no_way_to_go():
+    putt = {**RESULT, 'status': 'holed', 'carry': 2.06, 'total': 2.06, 'apex': 0.0, 'to_hole': 0.0}
+    chip = {**RESULT, 'carry': 8.0, 'total': 12.0, 'apex': 1.4, 'to_hole': 0.9}
+    rows = page.card_rows([Line(1, 'pw', chip, 0), Line(2, 'putter', putt, 0)], 'golf')
+    assert [row['carry'] for row in rows] == ['26 ft', '']
+    assert [row['to_hole'] for row in rows] == ['3.0 ft', '']
+    assert rows[1]['end'] == 'in the hole'
+
+
+def test_u_changes_the_units_of_the_panel():
+    play = Play()
+
+    async def look(user):
+        assert 'carries 251 m' in play.page.club.options['driver']
+        play.page.toggle_units()
+        assert 'carries 275 yd' in play.page.club.options['driver']
+        play.page.club.value = 'putter'
+        await user.should_see('mph')
 
     looked_at(play, look)
 

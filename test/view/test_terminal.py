@@ -14,11 +14,14 @@
 
 """What is typed in the terminal, and what is told there."""
 
+import subprocess
+import sys
 from types import SimpleNamespace
 
 from golf_sim_ros.course import load_course
 from golf_sim_ros.view import terminal
 from golf_sim_ros.view.caddie import putt_speed, Stroke
+from golf_sim_ros.view.own_sim import OwnSim
 from golf_sim_ros.view.session import Session
 import pytest
 
@@ -63,12 +66,46 @@ def test_advice_can_be_typed(session):
 
 def test_where_the_ball_lies_is_told(session):
     assert terminal.situation(session, 'si').startswith('stroke 1, 346.1 m to the hole [driver')
+    session.wind = (3.0, -4.0, 0.0)
+    assert ', wind 5.0 m/s ' in terminal.situation(session, 'si')
+    assert ', wind 11.2 mph ' in terminal.situation(session, 'golf')
 
 
 def test_a_course_that_cannot_be_read_and_a_sim_that_ended_are_told(session):
-    game = SimpleNamespace(session=session, own=SimpleNamespace(has_ended=False))
+    game = SimpleNamespace(session=session, own=SimpleNamespace(ending=''))
     assert terminal.trouble(game) == ''
-    game.own.has_ended = True
+    game.own.ending = 'sim_node has ended by itself, with code -9'
     assert 'ended' in terminal.trouble(game)
     session.on_no_course('there is no course')
     assert 'there is no course' in terminal.trouble(game)
+
+
+def test_a_sim_of_others_that_is_gone_and_back_is_told_once_each(session, capsys):
+    tell = terminal.tell_status(SimpleNamespace(session=session, own=None))
+    forget = session.listen(tell)
+    for reached in (True, False, False, True):
+        session.on_reach(reached, False, True)
+    forget()
+    assert capsys.readouterr().err.splitlines() == [
+        'play_hole: The sim cannot be reached',
+        'play_hole: The sim is reached',
+    ]
+
+
+def test_one_stroke_is_one_stroke(session):
+    session.round.hole.add({'status': 'holed', 'stroke': 1, 'penalty': 0}, '7i')
+    assert terminal.card(session.round.hole) == 'Links: 1 stroke, hole in one (par 4)'
+
+
+def test_own_processes_that_are_ended_on_purpose_have_not_ended_by_themselves():
+    own = OwnSim('/x')
+    own.processes = [subprocess.Popen([sys.executable, '-c', 'input()'], stdin=subprocess.PIPE)]
+    own.programs = ['sim_node']
+    process = own.processes[0]
+    assert own.ending == ''
+    process.kill()
+    process.wait()
+    assert own.ending == 'sim_node has ended by itself, with code -9'
+    own.stop()
+    assert own.ending == ''
+    process.stdin.close()

@@ -18,6 +18,7 @@ import { SPEEDS } from "./recorded.js";
 
 const YARD = 0.9144;
 const FOOT = 0.3048;
+const LEAST_APEX = 0.1; // m that a ball rises at least if it flew: a putt that drops in has a carry, too
 const ENDINGS = { holed: "In the hole", water: "In the water", out_of_bounds: "Out of bounds", time_limit: "Still moving", aborted: "Ended by a reset", failed: "Failed", rejected: "Not played" };
 const TITLES = { behind: "Behind the ball", broadcast: "Broadcast", above: "From above", pin: "At the pin", free: "Free: drag, wheel" };
 const ICONS = {
@@ -182,19 +183,28 @@ export class Hud {
     if (land.hole) {
       const way = Math.hypot(land.hole[0] - ball.place.x, land.hole[1] - ball.place.y);
       const rise = land.hole[2] - (ball.place.z - land.radius);
-      const small = ball.moving ? "" : `<small>${rise >= 0 ? "▲" : "▼"} ${this.metric || way >= 25 ? this.length(Math.abs(rise), 1) : `${(Math.abs(rise) / FOOT * 12).toFixed(0)} in`}</small>`;
-      text += `<div class="big">${this.distance(way)}${small}</div>`;
+      const holed = this.isHoled(ball);
+      const small = ball.moving || holed ? "" : `<small>${rise >= 0 ? "▲" : "▼"} ${this.metric || way >= 25 ? this.length(Math.abs(rise), 1) : `${(Math.abs(rise) / FOOT * 12).toFixed(0)} in`}</small>`;
+      text += `<div class="big">${holed ? "holed" : this.distance(way)}${small}</div>`;
     }
     const lie = ball.moving ? "in motion" : this.lie(ball).replaceAll("_", " ");
     text += `<div class="sub">${escape(lie)}</div>`;
     if (text !== this.headText) this.head.innerHTML = this.headText = text;
   }
 
+  // Whether a ball still lies where the last result left it.
+  isThere(ball) {
+    const { x, y, z } = ball.place, p = this.state.result?.position;
+    return Boolean(p) && Math.hypot(p[0] - x, p[1] - y, p[2] - z) < 0.05;
+  }
+
+  isHoled(ball) {
+    return this.state.result?.status === "holed" && this.isThere(ball);
+  }
+
   // What the ball lies on: as the result said where it lies there still, else the ground.
   lie(ball) {
-    const { result } = this.state, { x, y, z } = ball.place, p = result?.position;
-    const there = p && Math.hypot(p[0] - x, p[1] - y, p[2] - z) < 0.05;
-    return (there && result.lie) || this.land.material(x, y);
+    return (this.isThere(ball) && this.state.result.lie) || this.land.material(ball.place.x, ball.place.y);
   }
 
   blow(wind) {
@@ -215,7 +225,7 @@ export class Hud {
     this.cards.innerHTML = "";
     if (!result) return;
     const cards = [];
-    const flew = result.flight_time > 0;
+    const flew = result.apex > LEAST_APEX;
     if (flew) cards.push(["carry", this.length(result.carry)]);
     if (result.total !== undefined) cards.push(["total", this.distance(result.total)]);
     if (flew) {
@@ -274,7 +284,7 @@ export class Hud {
       pen.fill();
     }
     pen.fillStyle = "#24552b";
-    for (const tree of land.obstacles.filter((o) => o.kind === "sphere")) {
+    for (const tree of land.obstacles.filter((o) => o.material !== "wood")) {
       pen.beginPath();
       pen.arc(...this.onMap(tree.place[0], tree.place[1]), Math.max(1.2, (tree.radius / width) * (long ? back.height : back.width)), 0, 7);
       pen.fill();
@@ -287,7 +297,7 @@ export class Hud {
     pen.drawImage(this.back, 0, 0);
     const ball = view.balls[view.followed];
     pen.lineWidth = 1.4 * sharp;
-    if (land.hole && ball) {
+    if (land.hole && ball && !this.isHoled(ball)) {
       const from = this.onMap(ball.place.x, ball.place.y), to = this.onMap(land.hole[0], land.hole[1]);
       pen.strokeStyle = "#ffffffb0";
       pen.setLineDash([3 * sharp, 3 * sharp]);

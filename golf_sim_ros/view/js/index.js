@@ -67,6 +67,10 @@ export class GolfPage {
 
   async fetchCourse({ url }) {
     if (url === this.url) {
+      // The same course: a hole begins anew, or the server is back.
+      this.live.forget();
+      this.view.begin();
+      this.hud.showResult(null);
       this.feed.socket.send("ready");
       return;
     }

@@ -63,36 +63,91 @@ function leafy(noise) {
   return material;
 }
 
-export function trees(land, noise) {
-  const crowns = land.obstacles.filter((o) => o.kind === "sphere" && o.material === "leaves");
-  if (!crowns.length) return [];
-  const mesh = new THREE.InstancedMesh(crown(), leafy(noise), crowns.length);
-  const next = random(11), place = new THREE.Object3D(), color = new THREE.Color();
-  crowns.forEach(({ place: [x, y, z], radius }, n) => {
-    place.position.set(x, y, z);
-    place.rotation.set(0, 0, 2 * Math.PI * next());
-    place.scale.setScalar(radius);
+// A conifer's crown in the cylinder of radius 1 from z = -1 to 1: whorls of branches, each a ragged skirt.
+function pine() {
+  const WHORLS = 9, profile = [new THREE.Vector2(0, -0.96)];
+  for (let k = 0; k < WHORLS; k++) {
+    const out = 1 - 0.62 * (k / WHORLS) ** 2.6, low = -1 + (2 * k) / WHORLS, next = low + 2 / WHORLS;
+    profile.push(new THREE.Vector2(0.6 * out, low + 0.03), new THREE.Vector2(0.97 * out, low), new THREE.Vector2(0.8 * out, low + 0.09), new THREE.Vector2(0.56 * out, next));
+  }
+  profile.push(new THREE.Vector2(0, 1.02));
+  const geometry = new THREE.LatheGeometry(profile, 20).rotateX(Math.PI / 2);
+  const place = geometry.attributes.position;
+  for (let k = 0; k < place.count; k++) {
+    const x = place.getX(k), y = place.getY(k), z = place.getZ(k), turn = Math.atan2(y, x), whorl = Math.floor((z + 1.001) * WHORLS / 2);
+    const ragged = 1 - 0.1 * (1 + Math.sin(7 * turn + 2.4 * whorl)) - 0.06 * (1 + Math.sin(4 * turn - 1.7 * whorl));
+    place.setXYZ(k, x * ragged, y * ragged, z + 0.035 * Math.sin(5 * turn + 1.3 * whorl) * Math.hypot(x, y));
+  }
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+const isTree = (o) => o.material === (o.kind === "sphere" ? "leaves" : "pine");
+
+// Many things of one shape: `set(place, color, thing)` says where each is, and in which colour.
+function instances(geometry, material, things, set) {
+  const mesh = new THREE.InstancedMesh(geometry, material, things.length);
+  const place = new THREE.Object3D(), color = new THREE.Color();
+  things.forEach((thing, n) => {
+    set(place, color, thing);
     place.updateMatrix();
     mesh.setMatrixAt(n, place.matrix);
-    mesh.setColorAt(n, color.setHSL(0.265 + 0.035 * next(), 0.44 + 0.08 * next(), 0.24 + 0.05 * next()));
+    mesh.setColorAt(n, color);
   });
   mesh.castShadow = mesh.receiveShadow = true;
-  return [mesh];
+  return mesh;
+}
+
+export function trees(land, noise) {
+  const all = land.obstacles.filter(isTree), next = random(11);
+  const of = (kind) => all.filter((o) => o.kind === kind);
+  const crowns = [];
+  if (of("sphere").length) {
+    crowns.push(instances(crown(), leafy(noise), of("sphere"), (place, color, { place: [x, y, z], radius }) => {
+      place.position.set(x, y, z);
+      place.rotation.set(0, 0, 2 * Math.PI * next());
+      place.scale.setScalar(radius);
+      color.setHSL(0.265 + 0.035 * next(), 0.44 + 0.08 * next(), 0.24 + 0.05 * next());
+    }));
+  }
+  if (of("cylinder").length) {
+    crowns.push(instances(pine(), leafy(noise), of("cylinder"), (place, color, { place: [x, y, z], radius, height }) => {
+      place.position.set(x, y, z + 0.5 * height);
+      place.rotation.set(0, 0, 2 * Math.PI * next());
+      place.scale.set(radius, radius, 0.5 * height);
+      color.setHSL(0.3 + 0.04 * next(), 0.32 + 0.08 * next(), 0.17 + 0.05 * next());
+    }));
+  }
+  return crowns;
+}
+
+const LOW = 0.8; // m that a thing goes on below: it may stand on a slope
+const IN_CROWN = 1.2; // m that a trunk goes on above
+
+const isTrunk = (o) => o.kind === "cylinder" && o.material === "wood";
+
+export function trunks(land) {
+  const all = land.obstacles.filter(isTrunk);
+  if (!all.length) return [];
+  return [instances(new THREE.CylinderGeometry(0.8, 1.25, 1, 14), new THREE.MeshLambertMaterial({ color: 0xffffff }), all, (place, color, o) => {
+    place.rotation.set(Math.PI / 2, 0, 0);
+    place.position.set(o.place[0], o.place[1], o.place[2] + 0.5 * (o.height + IN_CROWN - LOW));
+    place.scale.set(o.radius, o.height + IN_CROWN + LOW, o.radius);
+    color.set(0x6a5138);
+  })];
 }
 
 export function solids(land) {
-  return land.obstacles.filter((o) => !(o.kind === "sphere" && o.material === "leaves")).map((o) => {
-    const wood = o.material === "wood", color = new THREE.Color().setRGB(...o.color, THREE.SRGBColorSpace);
-    const material = new THREE.MeshLambertMaterial({ color: wood ? 0x6a5138 : color });
+  return land.obstacles.filter((o) => !isTree(o) && !isTrunk(o)).map((o) => {
+    const material = new THREE.MeshLambertMaterial({ color: new THREE.Color().setRGB(...o.color, THREE.SRGBColorSpace) });
     let mesh;
     if (o.kind === "sphere") {
       mesh = new THREE.Mesh(new THREE.SphereGeometry(o.radius, 32, 20), material);
       mesh.position.set(...o.place);
     } else {
-      const low = 0.8; // m below: trunks on a slope
-      mesh = new THREE.Mesh(new THREE.CylinderGeometry(o.radius * (wood ? 0.8 : 1), o.radius * (wood ? 1.25 : 1), o.height + low + (wood ? 1.2 : 0), 14), material);
+      mesh = new THREE.Mesh(new THREE.CylinderGeometry(o.radius, o.radius, o.height + LOW, 14), material);
       mesh.rotation.x = Math.PI / 2;
-      mesh.position.set(o.place[0], o.place[1], o.place[2] + 0.5 * (o.height + (wood ? 1.2 : 0) - low));
+      mesh.position.set(o.place[0], o.place[1], o.place[2] + 0.5 * (o.height - LOW));
     }
     mesh.castShadow = mesh.receiveShadow = true;
     return mesh;

@@ -18,7 +18,7 @@ import { Ball, Ribbon } from "./ball.js";
 import { Cameras } from "./cameras.js";
 import { groundMesh, hillsMesh, lights } from "./ground.js";
 import { installHaze, noiseTexture, skyDome } from "./sky.js";
-import { boundary, pin, ponds, solids, teeMarkers, trees, walls } from "./things.js";
+import { boundary, pin, ponds, solids, teeMarkers, trees, trunks, walls } from "./things.js";
 
 const COLORS = [0xffffff, 0xff8a5c, 0x7cc7ff, 0xffe066, 0xd9a5ff, 0x8ff0a4];
 const IDLE = 1 / 15; // s between pictures while only flag and water move
@@ -79,6 +79,7 @@ export class GolfView {
       hillsMesh(land, this.noise),
       ...lights(land),
       ...trees(land, this.noise),
+      ...trunks(land),
       ...solids(land),
       ...walls(land),
       ...ponds(land, this.noise, this.time),
@@ -88,14 +89,26 @@ export class GolfView {
     ];
     this.scene.add(...this.made);
     this.renderer.shadowMap.needsUpdate = true;
+    this.begin();
+  }
+
+  // One ball on the tee, and nothing of what was played before.
+  begin() {
+    const { land } = this;
+    this.clearPlay();
     this.ball(0).moveTo(land.tee[0], land.tee[1], land.tee[2] + land.radius);
+    this.followed = 0;
     this.cameras.jump = this.changed = true;
   }
 
-  clear() {
+  clearPlay() {
     for (const ball of this.balls) ball.close();
     this.balls = [];
     this.hideHints();
+  }
+
+  clear() {
+    this.clearPlay();
     for (const thing of this.made ?? []) {
       this.scene.remove(thing);
       thing.traverse((part) => {
@@ -213,6 +226,7 @@ export class GolfView {
     const ball = this.balls[this.followed] ?? this.ball(0);
     const before = this.camera.position.clone();
     this.cameras.update(Math.min(since, 0.3), ball, this.land);
+    this.camera.updateMatrixWorld(); // what lies over the picture is placed before it is drawn
     this.changed ||= before.distanceTo(this.camera.position) > 1e-3;
     // From afar the flag is drawn larger; the one map of shadows is made of it as it is.
     const far = this.renderer.shadowMap.needsUpdate ? 1 : this.camera.position.distanceTo(this.pin?.position ?? this.camera.position);
