@@ -58,7 +58,7 @@ STARTED = ('rviz2',)  # by the launch file, not imported
 # What apt has not: where it is imported, and only when it is needed; the extra of pip that brings
 # it. llvmlite is numba's own compiler and comes with it.
 BY_PIP = {
-    'numba': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
+    'numba': ('fast', 'numba', ('golf_sim_ros/physics/jit/', 'golf_sim_ros/wind/compiled.py')),
     'llvmlite': ('fast', 'numba', ('golf_sim_ros/physics/jit/',)),
     'rosbags': (
         'bag',
@@ -75,7 +75,12 @@ BY_PIP = {
     'fastapi': ('view', 'nicegui', ('golf_sim_ros/view/server.py',)),  # NiceGUI is made of it
 }
 # Modules that are imported only when what they need is asked for.
-LATE = ('golf_sim_ros/physics/jit/', 'golf_sim_ros/view/page.py', 'golf_sim_ros/view/server.py')
+LATE = (
+    'golf_sim_ros/physics/jit/',
+    'golf_sim_ros/view/page.py',
+    'golf_sim_ros/view/server.py',
+    'golf_sim_ros/wind/compiled.py',
+)
 # Every apt key here is one of rosdep's, for apt, in rosdistro's python.yaml, with no exception for
 # a release.
 NO_APT_KEY = ('python3-numba', 'python3-rosbags-pip', 'python3-trimesh-pip')

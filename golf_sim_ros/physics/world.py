@@ -553,6 +553,7 @@ class World:
     def measure(self) -> None:
         """Start to measure where the engine's time goes; see `spent`."""
         self._workspace = self._workspace._replace(spent=np.zeros(len(STAGES), np.int64))
+        self._use(self._model)
 
     @property
     def spent(self) -> dict[str, int]:

@@ -290,6 +290,7 @@ def test_json_of_the_journal_has_the_keys_of_a_strike(told):
         'clock',
         'engine',
         'accuracy',
+        'turbulence',
         'wind',
         'balls',
     ]

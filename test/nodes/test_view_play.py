@@ -15,7 +15,6 @@
 """The page's server beside a sim: it follows, publishes nothing, refuses strangers, ends."""
 
 import asyncio
-import json
 import os
 from pathlib import Path
 import signal
@@ -76,7 +75,7 @@ def test_two_pages_see_a_strike_its_poses_and_its_result(url, make_golfer):
             assert page.of('strike')[-1]['ball'] == 0
             assert 50 < len(page.poses) < 600
             assert page.bytes < 30_000  # course, status, scores and one drive
-    own = [json.loads(message.data) for message in golfer.results]
+    own = wait_until(lambda: golfer.results_of(*DRIVE), 'the result came here, too')
     assert {key: result[key] for key in own[-1]} == own[-1]
 
 

@@ -45,7 +45,7 @@ SCENES = {
 SHOT = Shot((30.0, 2.0, 20.0), (50.0, -250.0, 30.0))
 effects = pytest.mark.parametrize('name', EFFECTS)
 # Effects of what these scenes do not have; that they matter is shown where they are tested.
-ELSEWHERE = {'ball_ball', 'foliage', 'water'}
+ELSEWHERE = {'ball_ball', 'foliage', 'turbulence', 'water', 'wind_field'}
 ON_REQUEST = {
     'linear_drag',
     'ferguson_drag',

@@ -31,7 +31,11 @@ pytest.importorskip('rosbags')
 BAGS = Path(__file__).parents[1] / 'data' / 'bags'
 KINDS = {  # statuses of the shots, kinds of collision, kinds of input
     'one_ball': ({'at_rest'}, {'bounce'}, {'strike', 'rest'}),
-    'several_balls': ({'at_rest', 'out_of_bounds'}, {'ball', 'bounce'}, {'strike', 'place', 'rest'}),
+    'several_balls': (
+        {'at_rest', 'out_of_bounds'},
+        {'ball', 'bounce'},
+        {'strike', 'place', 'rest', 'drop'},
+    ),
     'gusts': (
         {'at_rest', 'out_of_bounds'},
         {'bounce', 'out_of_bounds'},
