@@ -17,6 +17,7 @@
 import json
 import signal
 
+from geometry_msgs.msg import PoseStamped
 from processes import parameters, READY, wait_until
 import pytest
 from std_msgs.msg import String
@@ -41,8 +42,13 @@ def shooting(start, namespace, *more):
 
 
 def struck(client):
-    """Listen to the journal: a function that gives its strikes so far."""
+    """Listen to the journal: a function that gives its strikes so far.
+
+    The sim knows who listens before anybody strikes: a pose that arrives says so.
+    """
     entries = client.listen(String, 'journal', 100)
+    poses = client.listen(PoseStamped, 'ball/pose', 100)
+    wait_until(lambda: poses, 'the ball told where it is')
 
     def strikes():
         told = (json.loads(message.data) for message in entries)
