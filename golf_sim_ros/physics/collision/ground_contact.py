@@ -71,6 +71,7 @@ FEW_STEPS = 4
 MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
 LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner counts as having left it
 NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+LEAST_HOLLOW = 1e-12  # 1/m: less is none
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 # of a gap of zero: what comes next is open, it is clear for a while, or hit
 OPEN, CLEAR, HIT = range(3)
@@ -128,7 +129,7 @@ def advancement_over_hollows(
     # The ball's speed bounds the advance from anywhere; the parabola only within the tube of
     # unique nearest points, and so only until the ball may have left that.
     sure = (gap if gap > TOUCH else ESCAPE) / (fastest + 1e-9)
-    tube = 0.5 / hollow - distance
+    tube = 0.5 / max(hollow, LEAST_HOLLOW) - distance
     if tube <= 0.0:
         return sure
     bent = advancement_bound(gap, rate, bend + 2.0 * hollow * fastest * fastest)
