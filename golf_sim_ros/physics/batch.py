@@ -75,14 +75,15 @@ def batch_engine(batch: Batch, shots: int) -> str:
 
 def world_of(batch: Batch) -> World:
     """`World` of a batch. The strongest gust decides whether wind is simulated."""
-    wind = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
+    strongest = batch.gusts[np.argmax(np.linalg.norm(batch.gusts[:, 1:], axis=1)), 1:]
+    wind = {'wind': strongest} if strongest.any() else {}
     return World(
         batch.course,
         ('ball',),
         batch.effects,
         batch.accuracy,
         engine='python',
-        wind=wind,
+        **wind,
         **batch.live,
     )
 

@@ -128,7 +128,7 @@ def checked_gusts(wind: ArrayLike) -> np.ndarray:
         )
     if table[0, 0] != 0.0 or not (np.diff(table[:, 0]) > 0.0).all():
         raise ValueError('the times of the wind must begin with 0 and rise')
-    for row in table:
+    for row in table[table[:, 1:].any(axis=1)]:  # still air needs no effect
         checked_live('wind', row[1:])
     return table
 
