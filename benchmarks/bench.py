@@ -28,6 +28,7 @@ import subprocess
 import compiling
 import engines
 from golf_sim_ros.physics.engine.engines import prefer_compiled
+import grounds
 import node
 import off
 import scale
@@ -35,7 +36,7 @@ import shots
 import ticks
 
 HISTORY = Path(__file__).parent / 'history.jsonl'
-PARTS = compiling, shots, ticks, scale, node, engines, off
+PARTS = compiling, shots, grounds, ticks, scale, node, engines, off
 
 
 def main():

@@ -34,7 +34,7 @@ from golf_sim_ros.physics import ACCURACY, Phase  # noqa: E402
 from golf_sim_ros.physics.engine.engines import prefer_compiled  # noqa: E402
 from hard_scenes import SCENES  # noqa: E402
 from nothing_passes import TARGETS  # noqa: E402
-from test_hard_cases import CASES, play, start  # noqa: E402
+from test_hard_cases import allowed_depth, CASES, play, start  # noqa: E402
 import yaml  # noqa: E402
 
 BUILD = ROOT / 'build' / 'hard'
@@ -44,8 +44,9 @@ HEAD = """\
 # Hard cases
 
 Made by `make hard`: every case of `test/physics/hard_cases/`, with every preset, at ticks of 50,
-250 and 1000 Hz. In all of them the ball must stay finite, out of the ground to 2e-6 m, gain no
-energy in still air beyond 1e-9 of it a tick, and come to its end. A cell is how far from the
+250 and 1000 Hz. In all of them the ball must stay finite, out of the ground to 2e-6 m (`sketch`:
+1e-5 m, by which it lets a path be off), gain no energy in still air beyond 1e-9 of it and 2e-5 J/kg
+a tick, and come to its end. A cell is how far from the
 expected place and velocity it ended, at the worst of the three rates, in metres and m/s: to be
 held against `within`, which is asked of `standard`. A rougher preset may be off by what it
 promises. *fails* says what did not hold; "as it may": nothing exact is expected. The tables of
@@ -114,7 +115,7 @@ def passed(count):
         f'Of {count:,} random shots at each target (0 to 120 m/s, spin to 2000 rad/s, from within',
         '2 m, every fourth grazing), at each of the three rates, so many passed through.',
         'In brackets: how deep any ball was found in it, at any tick [m]. Expected: 0, and no',
-        'deeper than 2e-6 m and five times what a preset lets a path be off.',
+        'deeper than above.',
         '',
         '| target | ' + ' | '.join(ACCURACY) + ' |',
         '|---|' + '---|' * len(ACCURACY),
@@ -126,8 +127,7 @@ def passed(count):
         cells = []
         for accuracy in ACCURACY:
             off, depths = zip(*(found[target, accuracy, rate] for rate in RATES))
-            allowed = 2e-6 + 5 * ACCURACY[accuracy].limits.path
-            fails = sum(off) or max(depths) > allowed
+            fails = sum(off) or max(depths) > allowed_depth(accuracy)
             cells.append(f'{sum(off)} ({max(depths):.1e})' + (' *fails*' if fails else ''))
         lines.append(f'| {target} | ' + ' | '.join(cells) + ' |')
     return lines

@@ -250,7 +250,7 @@ def test_grass_brakes_the_centre_of_a_ball_that_slides(accuracy, speed, backspin
     way = solve_ivp(rates, (0.0, 60.0), start, events=slip, rtol=1e-12, atol=1e-12)
     expected = way.y[0, -1] + rolled_out(way.y[1, -1])
     found = rest_on(course, (speed, 0, 0), (0, -backspin, 0), accuracy)
-    within = {'reference': 1e-6, 'standard': 1e-4, 'sketch': 5e-3}  # sketch's paths err by 0.1 mm
+    within = {'reference': 1e-6, 'standard': 1e-4, 'sketch': 1e-3}  # sketch's paths err by 0.01 mm
     assert abs(found[0] - expected) < within[accuracy]
 
 

@@ -59,6 +59,8 @@ from ..trajectory.segment import fit_segment, position
 LONGEST_SEGMENT = 10.0  # s
 # s: a shorter segment must be more exact, for velocity errs by position's error over time
 UNHURRIED = 0.1
+# m/s: by more than this no preset lets it err where friction turns, or the ball would gain energy
+VELOCITY_ERROR = 1e-5
 LEAST_BRAKE = 1e-3  # m/s^2: a ball that is braked less is as good as never stopped
 EVENLY = 6.0  # of a steadily growing acceleration: its rate times time^3 over the way
 # No curve is asked to be nearer to a closed form than LEAST_PATH_ERROR, or than a share of
@@ -181,7 +183,10 @@ def allowed_error(land: Land, ball: BallRecord) -> float:
     """Distance [m] by which the segment's curve may be off its closed form."""
     x = ball['position']
     rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
-    return max(land.limits.path * min(1.0, ball['span'] / UNHURRIED), LEAST_PATH_ERROR, rounding)
+    allowed = land.limits.path * min(1.0, ball['span'] / UNHURRIED)
+    if ball['phase'] == SLIDE:
+        allowed = min(allowed, VELOCITY_ERROR * ball['span'])
+    return max(allowed, LEAST_PATH_ERROR, rounding)
 
 
 @kernel

@@ -53,6 +53,8 @@ LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
 # Along the ground, where a ball must be slow to stop, errors count more.
 ON_GROUND = 1.0 / 15.0  # of the tolerance
 MOST_ON_GROUND = 1e-3  # m
+# A rougher slide would err in energy by more than ground may give: see docs/stability.md.
+MOST_SLIDING = 2e-4  # m
 LEAST_LEFT = 0.1  # s
 
 
@@ -80,7 +82,8 @@ def _error_weights(method: DormandPrince, brief: bool) -> np.ndarray:
 @runge_kutta.allowed.register(DormandPrince)
 def _allowed(method: DormandPrince, ball: BallRecord) -> float:
     if ball['phase'] != FLIGHT:
-        return min(ON_GROUND * method.tolerance, MOST_ON_GROUND) / time_left(ball)
+        most = MOST_ON_GROUND if ball['phase'] == ROLL else MOST_SLIDING
+        return min(ON_GROUND * method.tolerance, most) / time_left(ball)
     return LANDED * method.tolerance if ball['landed'] else method.tolerance
 
 

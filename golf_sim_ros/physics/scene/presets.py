@@ -39,7 +39,7 @@ class Preset(NamedTuple):
 ACCURACY = {
     'sketch': Preset(
         DormandPrince(5e-3),
-        Limits(settle=0.1, path=1e-4),
+        Limits(settle=0.1, path=1e-5),
         touch=0.5,
         rest=1.0,
         use='watching many shots at once',
