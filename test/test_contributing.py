@@ -27,6 +27,7 @@ ROOT = Path(__file__).resolve().parents[1]
 TEXT = (ROOT / 'CONTRIBUTING.md').read_text(encoding='utf-8')
 PLAY = """
 from golf_sim_ros.course import load_course
+from golf_sim_ros.course.material_file import materials, shipped
 from golf_sim_ros.physics import (
     ACCURACY, METHODS, Course, Plane, Preset, Result, Shot, World, simulate)
 from golf_sim_ros.physics.geometry.cone import Cone
@@ -56,6 +57,16 @@ while world.moving:
     world.advance(0.02)
     heights.append(world['ball'].position[2])
 print(max(heights), heights[-1])
+laws = 'gravity', 'magnus', 'spin_decay', 'turf'
+for drag in ('drag', 'range_ball'):
+    print(simulate(course, drive, engine='python', effects=(drag, *laws)).result.carry)
+foam = load_course('foam.yaml')
+usual = foam._replace(ball=course.ball)
+print(*(simulate(one, chip, engine='python').result.carry for one in (foam, usual)))
+green = materials({'green': {'grain': 0.3}}, shipped()[0])['green']
+for way in ((2.0, 0.0, 0.0), (0.0, 2.0, 0.0), (-2.0, 0.0, 0.0)):
+    putt = Shot(way, (0.0, 0.0, 0.0))
+    print(simulate(Course(ground=(Plane(material=green),)), putt, engine='python').result.total)
 """
 
 
@@ -64,19 +75,58 @@ def files():
     return dict(re.findall(r'`([\w/]+\.(?:py|yaml))`:\n\n```\w+\n(.*?)```', TEXT, re.DOTALL))
 
 
-def insert(path, after, line):
-    """Add a line after the one that begins with `after`."""
+def block(begin):
+    """Block of CONTRIBUTING.md without a file's name, one that begins with `begin`."""
+    return re.search(rf'```\w+\n({re.escape(begin)}.*?)```', TEXT, re.DOTALL)[1]
+
+
+def change(path, *pairs):
+    """Replace texts that stand in a file once, each by another."""
     text = path.read_text(encoding='utf-8')
-    assert re.search(f'^{re.escape(after)}', text, re.MULTILINE), f'{path.name} has no {after!r}'
-    path.write_text(
-        re.sub(
-            f'^({re.escape(after)}.*)$',
-            lambda found: f'{found[1]}\n{line}',
-            text,
-            count=1,
-            flags=re.MULTILINE,
+    for old, new in pairs:
+        assert text.count(old) == 1, f'{path.name} has {old!r} {text.count(old)} times'
+        text = text.replace(old, new)
+    path.write_text(text, encoding='utf-8')
+
+
+def add_grain(physics):
+    """Give rolling a grain."""
+    change(
+        physics / 'properties' / 'material.py',
+        ('roughness: float = 0.0', 'roughness: float = 0.0\n    grain: float = 0.0'),
+        ('canopy_drag: float = 0.0', 'canopy_drag: float = 0.0\n    grain_heading: float = 0.0'),
+        ("    'roughness': (", "    'grain': (0.0, 10.0),\n    'roughness': ("),
+        ("    'canopy_drag': (", "    'grain_heading': (-360.0, 360.0),\n    'canopy_drag': ("),
+    )
+    law = block('    angle = ')
+    change(
+        physics / 'trajectory' / 'equations_of_motion.py',
+        ('from ..effects import', 'from math import cos, radians, sin\nfrom ..effects import'),
+        ('press: float, needed: float) -> float:', 'press, needed, way: Vector = ZERO) -> float:'),
+        (
+            "    return min(\n        material['rolling_resistance'] * press",
+            law + "    return min(\n        material['rolling_resistance'] * against * press",
         ),
-        encoding='utf-8',
+        (
+            '<= rolling_deceleration(material, press, needed)',
+            '<= rolling_deceleration(material, press, needed, downhill)',
+        ),
+        (
+            '    resistance = 0.0 if tail else rolling_deceleration(material, press, needed)',
+            '    way = velocity if length(velocity) > LEAST_SPEED else free\n'
+            '    resistance = 0.0 if tail else rolling_deceleration(material, press, needed, way)',
+        ),
+    )
+    change(
+        physics / 'engine' / 'planner.py',
+        (
+            '        if not is_in_still_air(land, ball, now):\n',
+            block('        if not is_in_still_air'),
+        ),
+        (
+            'import LEAST_SPEED, turning_surface',
+            'import LEAST_SPEED, material_under, turning_surface',
+        ),
     )
 
 
@@ -89,10 +139,12 @@ def told(tmp_path_factory):
     shutil.copy(ROOT / 'package.xml', copy)
     for path, content in files().items():
         (copy / path).write_text(content, encoding='utf-8')
-    scene = copy / 'golf_sim_ros' / 'physics' / 'scene'
-    insert(
-        scene / 'presets.py', 'ACCURACY = {', re.search(r"^    'rough'.*$", TEXT, re.MULTILINE)[0]
-    )
+    physics = copy / 'golf_sim_ros' / 'physics'
+    line = re.search(r"^    'rough'.*$", TEXT, re.MULTILINE)[0]
+    change(physics / 'scene' / 'presets.py', ('ACCURACY = {\n', f'ACCURACY = {{\n{line}\n'))
+    add_grain(physics)
+    course = 'format: 1\nground:\n  - {shape: plane, material: fairway}\n' + block('ball: ')
+    (copy / 'foam.yaml').write_text(course, encoding='utf-8')
     run = subprocess.run(
         [sys.executable, '-c', PLAY],
         cwd=copy,
@@ -112,6 +164,7 @@ def test_it_has_an_example_of_each():
         'rain.py',
         'cone.py',
         'midpoint.py',
+        'range_ball.py',
         'clay.yaml',
         'yard.yaml',
     }
@@ -134,6 +187,19 @@ def test_the_putt_in_the_yard_is_holed(told):
 def test_a_ball_rolls_over_the_cone(told):
     highest, end = told[3]
     assert 0.1 < highest < 0.25 and end == pytest.approx(0.021335, abs=1e-5)
+
+
+def test_a_range_ball_flies_as_far_as_told(told):
+    assert told[4:6] == [[pytest.approx(254, abs=0.5)], [pytest.approx(234, abs=0.5)]]
+
+
+def test_a_foam_ball_is_light(told):
+    foam, usual = told[6]
+    assert foam < 0.9 * usual
+
+
+def test_grain_brakes_a_putt_as_told(told):
+    assert [total for (total,) in told[7:]] == pytest.approx([2.11, 1.86, 1.68], abs=0.01)
 
 
 def test_what_it_names_is_there():

@@ -37,6 +37,7 @@ from ..physics.geometry.solid import FLAGSTICK_MATERIAL
 from ..physics.properties.material import (
     Material,
     PENNER,
+    RANGES,
     Restitution,
     rolling_resistance_of_stimp,
 )
@@ -62,19 +63,9 @@ def restitution(value: Any, key: str) -> Restitution:
 
 FIELDS: dict[str, Checker] = {
     'restitution': restitution,
-    'tangential_restitution': number(-1, 1),
-    'static_friction': number(0),
-    'dynamic_friction': number(0),
-    'rolling_resistance': number(0),
+    **{name: number(*ends) for name, ends in RANGES.items()},
     'stimp': number(0.1, 100),
-    'pivot_friction': number(0),
-    'softness': number(0, 100),
-    'resistance_growth': number(0, 100),
-    'ploughing': number(0, 100),
     'color': vector(3, 0, 1),
-    'drag': number(0, 1000),
-    'roughness': number(1e-6, 10),
-    'canopy_drag': number(0, 100),
 }
 
 

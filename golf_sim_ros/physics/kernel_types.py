@@ -56,7 +56,7 @@ MethodRecord = Any
 # a `scene.kernel_model.GroundScene`, and a `scene.kernel_model.Model`
 Land = Any
 ModelRecord = Any
-# a `SingleBallWorkspace` or a `MultiBallWorkspace` of `collision`
+# a `collision.workspace.Workspace`, or a `MultiBallWorkspace`, which is one, too
 WorkRecord = Any
 # a `scene.course_record.Course`, where effects look at it, and its `scene.course_record.Ball`
 CourseRecord = Any

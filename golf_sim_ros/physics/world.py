@@ -22,7 +22,7 @@ from typing import Any, Callable, Iterable, Mapping, NamedTuple, Optional, Seque
 import numpy as np
 
 from . import placement, reporting
-from .collision.workspace import INVOLVED, new_workspace, TREE_AGE
+from .collision.workspace import INVOLVED, new_workspace
 from .effects import choose, EffectNames, Scene, set_drift
 from .engine.engines import checked_engine, compiled_engine, Program, PYTHON
 from .engine.event_loop import LOG_FULL, STAGES
@@ -351,7 +351,7 @@ class World:
 
     def _forget_tree(self) -> None:
         """Let the engine build the tree of the balls' boxes anew."""
-        self._workspace.count[TREE_AGE] = len(self.names)
+        self._workspace.tree.age[0] = len(self.names)
 
     def advance(self, dt: float) -> list[Happening]:
         """Advance the world by `dt` seconds.
@@ -407,7 +407,7 @@ class World:
         try:
             return run(model, self._balls, until, work, log)
         except (ArithmeticError, ValueError):
-            at_hand = self._workspace.involved[: self._workspace.count[INVOLVED]].tolist()
+            at_hand = self._workspace.involved[: self._workspace.counts[INVOLVED]].tolist()
             if not at_hand:
                 raise
         self._fail(at_hand, min(until, self._workspace.segment_ends[at_hand[0]]))
@@ -421,7 +421,7 @@ class World:
                 fail(ball, number, now, NOT_FINITE, self._log)
                 ball['end'] = inf
             self._workspace.involved_index[number] = -1
-        self._workspace.count[:TREE_AGE] = 0, 0
+        self._workspace.counts[:] = 0
         self._forget_tree()
 
     def _take_report(self, start: float) -> None:

@@ -22,7 +22,13 @@ must be named, and of each name something must be written.
 import ast
 import re
 
-from golf_sim_ros.physics.collision.workspace import CONTACT, MultiBallWorkspace
+from golf_sim_ros.physics.collision.workspace import (
+    CONTACT,
+    ImpactScratch,
+    SolverScratch,
+    Tree,
+    Workspace,
+)
 from golf_sim_ros.physics.state.ball import BALL
 import pytest
 from sources import field_of, functions, targets, trees
@@ -58,14 +64,16 @@ GROUPS = {
     'ball': BALL.names,
     'balls': BALL.names,
 }
+SCRATCH = {'impact': ImpactScratch, 'solver': SolverScratch, 'tree': Tree}
+ARRAYS = (
+    *(name for name in Workspace._fields if name not in SCRATCH),
+    *(name for record in SCRATCH.values() for name in record._fields),
+)
 OTHER_GROUPS = {
-    'contacts': (*(f'contact.{name}' for name in CONTACT.names), 'work.contacts', 'work.count'),
-    'involved': ('work.involved', 'work.involved_index', 'work.count'),
-    'tree': ('work.nodes', 'work.leaves', 'work.order', 'work.count'),
-    'work': (
-        *(f'work.{name}' for name in MultiBallWorkspace._fields),
-        *(f'contact.{name}' for name in CONTACT.names),
-    ),
+    'contacts': (*(f'contact.{name}' for name in CONTACT.names), 'work.contacts', 'work.counts'),
+    'involved': ('work.involved', 'work.involved_index', 'work.counts'),
+    'tree': tuple(f'work.{name}' for name in Tree._fields),
+    'work': (*(f'work.{name}' for name in ARRAYS), *(f'contact.{name}' for name in CONTACT.names)),
     'log': ('log',),
 }
 RECORDS = {'row': 'contact', 'node': 'work.nodes', 'event': 'log', 'end': None, 'log': 'log'}
@@ -102,8 +110,10 @@ class Kernel:
             if field is not None:
                 return self.field(node.value, record, field)
             if isinstance(node, ast.Attribute):
-                root = ast.unparse(node.value)
-                return f'work.{node.attr}' if root == 'work' else 'log' if root == 'log' else None
+                root = ast.unparse(node.value).partition('.')[0]
+                if root in ('work', *SCRATCH):
+                    return f'work.{node.attr}'
+                return 'log' if root == 'log' else None
             if isinstance(node, ast.Subscript):
                 node = node.value
             elif isinstance(node, ast.Name) and node.id in self.aliases:
@@ -120,7 +130,7 @@ class Kernel:
         text = ast.unparse(node)
         if text.startswith('work.contacts'):
             return f'contact.{field}'
-        if text.startswith('work.nodes'):
+        if text.startswith('tree.nodes'):
             return 'work.nodes'
         kind = RECORDS.get(record, 'ball')
         return f'{kind}.{field}' if kind in ('ball', 'contact') else kind
@@ -216,13 +226,18 @@ def meant(name):
     found = {f'ball.{field}' for field in GROUPS.get(name, ())} | set(OTHER_GROUPS.get(name, ()))
     found |= {f'ball.{name}'} if name in BALL.names else set()
     found |= {f'contact.{name}'} if name in CONTACT.names else set()
-    found |= {f'work.{name}'} if name in MultiBallWorkspace._fields else set()
+    found |= {f'work.{name}'} if name in ARRAYS else set()
     return found
 
 
 CHECKED = sorted(
     name for name, bodies in KERNELS.items() if bodies[0].text and name not in ('store',)
 )
+
+
+def test_an_array_of_the_workspace_belongs_to_one_solver():
+    assert len(ARRAYS) == len(set(ARRAYS))
+    assert all(record is Workspace.__annotations__[name] for name, record in SCRATCH.items())
 
 
 @pytest.mark.parametrize('name', CHECKED)

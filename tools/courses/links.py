@@ -19,7 +19,7 @@ from random import Random
 import numpy as np
 
 from .landform import along, band, bump, ellipse, grid, inland, plateau, smooth, waves
-from .writing import npy, place, polygon, rectangle, rounded
+from .writing import map_course, place, polygon, rectangle, rounded
 
 LOW, HIGH, SPACING = (-20.0, -60.0), (380.0, 60.0), 1.0
 SHORE = 12.0  # m from the map's outline to where the dunes are at their full height
@@ -137,18 +137,15 @@ def trees(land):
 def files():
     """Names and bytes."""
     land = heights()
-    painted = [
-        f'  - {{material: {name}, polygon: {polygon(corners)}}}' for name, corners in zones()
-    ]
-    content = TEXT.format(
+    return map_course(
+        'links',
+        TEXT,
+        land,
+        (LOW, HIGH, SPACING),
+        zones(),
         tee=list(TEE),
         hole=list(HOLE),
-        outline=polygon(rectangle(LOW, HIGH)),
-        low=list(LOW),
-        spacing=SPACING,
-        zones='\n'.join(painted),
         level=POND_LEVEL,
         pond=polygon(ellipse(POND, POND_RADII)),
         trees='\n'.join(trees(land)),
     )
-    return {'links.yaml': content.encode(), 'links.npy': npy(land)}

@@ -19,7 +19,7 @@ from random import Random
 import numpy as np
 
 from .landform import band, bump, ellipse, grid, inland, plateau, smooth, waves
-from .writing import npy, place, polygon, rectangle, rounded
+from .writing import map_course, place, polygon, rectangle, rounded
 
 LOW, HIGH, SPACING = (-30.0, -70.0), (210.0, 70.0), 1.0
 SHORE = 20.0  # m from the map's outline to where the land is at its full height
@@ -169,18 +169,15 @@ def trees(land):
 def files():
     """Names and bytes."""
     land = heights()
-    painted = [
-        f'  - {{material: {name}, polygon: {polygon(corners)}}}' for name, corners in zones()
-    ]
-    content = TEXT.format(
+    return map_course(
+        'tall_pines',
+        TEXT,
+        land,
+        (LOW, HIGH, SPACING),
+        zones(),
         tee=list(TEE),
         hole=list(HOLE),
-        outline=polygon(rectangle(LOW, HIGH)),
-        low=list(LOW),
-        spacing=SPACING,
-        zones='\n'.join(painted),
         level=CREEK_LEVEL,
         creek=polygon(creek()),
         trees='\n'.join(trees(land)),
     )
-    return {'tall_pines.yaml': content.encode(), 'tall_pines.npy': npy(land)}

@@ -58,3 +58,23 @@ def polygon(corners):
 def rectangle(low, high):
     """Corners of the rectangle between two (x, y)."""
     return [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]
+
+
+def map_course(name, text, land, extent, zones, **values):
+    """Names and bytes of the files of a course in one height map, `land`, painted with `zones`.
+
+    `extent`: its corners of least and greatest x, y, and its spacing. `text` takes these and the
+    `values` in.
+    """
+    low, high, spacing = extent
+    painted = [
+        f'  - {{material: {material}, polygon: {polygon(corners)}}}' for material, corners in zones
+    ]
+    content = text.format(
+        outline=polygon(rectangle(low, high)),
+        low=list(low),
+        spacing=spacing,
+        zones='\n'.join(painted),
+        **values,
+    )
+    return {f'{name}.yaml': content.encode(), f'{name}.npy': npy(land)}

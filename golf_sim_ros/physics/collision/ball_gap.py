@@ -213,9 +213,9 @@ def interrupt_segments_at(
     reach = (radius, radius, radius)
     low = sub(place, reach)
     high = add(place, reach)
-    at = next_node(work, 0, low, high)
+    at = next_node(work.tree, 0, low, high)
     while at >= 0:
-        j = work.nodes[at]['ball']
+        j = work.tree.nodes[at]['ball']
         other = balls[j]
         is_under_way = moves(other['phase']) and other['end'] > now
         if is_under_way and not is_left_to_time_stepping(other, ball, radius, now):
@@ -226,17 +226,17 @@ def interrupt_segments_at(
                 other['ending'] = BALL_IMPACT if touches else STEP_END
                 other['target'] = i
                 work.segment_ends[j] = time
-        at = next_node(work, at + 1, low, high)
+        at = next_node(work.tree, at + 1, low, high)
 
 
 @kernel
 def is_over_many_stepped(work: WorkRecord, balls: np.ndarray, low: Vector, high: Vector) -> bool:
     """Whether MANY_STEPPED or more time-stepped balls overlap the box from `low` to `high`."""
     found = 0
-    at = next_node(work, 0, low, high)
+    at = next_node(work.tree, 0, low, high)
     while at >= 0 and found < MANY_STEPPED:
-        found += balls[work.nodes[at]['ball']]['time_stepping'] == STEPPED
-        at = next_node(work, at + 1, low, high)
+        found += balls[work.tree.nodes[at]['ball']]['time_stepping'] == STEPPED
+        at = next_node(work.tree, at + 1, low, high)
     return found == MANY_STEPPED
 
 
@@ -264,9 +264,9 @@ def first_ball_impact(
     best = until
     who = -1
     hit = False
-    at = next_node(work, 0, low, high)
+    at = next_node(work.tree, 0, low, high)
     while at >= 0:
-        j = work.nodes[at]['ball']
+        j = work.tree.nodes[at]['ball']
         # Contacts of balls that are stepped together, or with a sleeper, belong to the contact
         # solver.
         other = balls[j]
@@ -282,5 +282,5 @@ def first_ball_impact(
                     best = time
                     who = j
                     hit = touches
-        at = next_node(work, at + 1, low, high)
+        at = next_node(work.tree, at + 1, low, high)
     return best, who, hit

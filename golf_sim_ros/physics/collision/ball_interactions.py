@@ -15,10 +15,8 @@
 """Laws of ball against ball. Where there is one ball, nothing of them is in the machine code.
 
 The engine's workspace is a record: its type says whether balls touch each other. These laws have
-bodies for `MultiBallWorkspace`; for `SingleBallWorkspace` the defaults hold.
+bodies for `workspace.MultiBallWorkspace`; for `workspace.Workspace` the defaults hold.
 """
-
-from typing import NamedTuple
 
 import numpy as np
 
@@ -27,34 +25,9 @@ from ..kernel_types import Land, WorkRecord
 from ..state.events import Log
 
 
-class SingleBallWorkspace(NamedTuple):
-    """Workspace of an engine whose balls do not touch each other.
-
-    ``segment_ends``: when each ball's segment ends; ``involved``: balls of the event at hand;
-    ``involved_index``: index of each ball among those, or -1; ``contacts``: rows of `CONTACT`;
-    ``contact_counts``: active contacts of each ball; ``velocity_change`` [m/s] by the extrapolated
-    impulses; ``position_change`` [m] that corrects penetration; ``motion_before``: velocity and
-    spin before an impact; ``solved_motion``: the same of a time step; ``count``: of involved
-    balls, of contacts, of segments since the tree was built, and whether any ball may be asleep on
-    another; ``spent``: cycles by stage, empty unless they are measured.
-    """
-
-    segment_ends: np.ndarray
-    involved: np.ndarray
-    involved_index: np.ndarray
-    contacts: np.ndarray
-    contact_counts: np.ndarray
-    velocity_change: np.ndarray
-    position_change: np.ndarray
-    motion_before: np.ndarray
-    solved_motion: np.ndarray
-    count: np.ndarray  # type: ignore[assignment]  # hides tuple.count
-    spent: np.ndarray
-
-
 @generic
 def prepare_broad_phase(work: WorkRecord, balls: np.ndarray, radius: float) -> None:
-    """Prepare the broad phase for a call of the engine. Writes tree."""
+    """Prepare the broad phase for a call of the engine. Writes tree, asleep."""
 
 
 @generic

@@ -31,9 +31,9 @@ import numpy as np
 
 from . import ball_interactions
 from .conservative_advancement import swept_box
-from .workspace import ASLEEP, MultiBallWorkspace, TREE_AGE
+from .workspace import MultiBallWorkspace, Tree
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Box, StructRecord, Vector, WorkRecord
+from ..kernel_types import BallRecord, Box, StructRecord, Vector
 from ..mechanics.vector import add_scaled, load, store
 from ..state.ball import moves, STEPPED
 
@@ -42,12 +42,12 @@ LEAF_MARGIN = 1e-3  # m around the box of a time-stepped ball, which seldom goes
 
 @ball_interactions.prepare_broad_phase.register(MultiBallWorkspace)
 def _prepare_broad_phase(work: MultiBallWorkspace, balls: np.ndarray, radius: float) -> None:
-    work.count[ASLEEP] = 0
+    work.asleep[0] = 0
     for i in range(len(balls)):
         if balls[i]['sleeps_on_ball']:
-            work.count[ASLEEP] = 1
-    if work.count[TREE_AGE] >= len(balls):
-        rebuild(work, balls, radius)
+            work.asleep[0] = 1
+    if work.tree.age[0] >= len(balls):
+        rebuild(work.tree, balls, radius)
 
 
 @kernel
@@ -99,48 +99,48 @@ def leaf_serves(ball: BallRecord, node: StructRecord, radius: float) -> bool:
 
 
 @kernel
-def refit(work: WorkRecord, i: int) -> None:
+def refit(tree: Tree, i: int) -> None:
     """Put the box of node `i` around those of its children. Writes nodes."""
-    node = work.nodes[i]
-    one = work.nodes[i + 1]
-    other = work.nodes[one['skip']]
+    node = tree.nodes[i]
+    one = tree.nodes[i + 1]
+    other = tree.nodes[one['skip']]
     for k in range(3):
         node['low'][k] = min(one['low'][k], other['low'][k])
         node['high'][k] = max(one['high'][k], other['high'][k])
 
 
 @shared
-def rebuild(work: WorkRecord, balls: np.ndarray, radius: float) -> None:
+def rebuild(tree: Tree, balls: np.ndarray, radius: float) -> None:
     """Build the tree top down, with median splits of the longest axis.
 
-    Writes nodes, leaves, order, count.
+    Writes tree.
     """
-    work.count[TREE_AGE] = 0
+    tree.age[0] = 0
     for i in range(len(balls)):
-        work.order[i] = i
-    work.nodes[0]['first'] = 0
-    work.nodes[0]['count'] = len(balls)
-    work.nodes[0]['parent'] = -1
-    for i in range(len(work.nodes)):
-        node = work.nodes[i]
+        tree.order[i] = i
+    tree.nodes[0]['first'] = 0
+    tree.nodes[0]['count'] = len(balls)
+    tree.nodes[0]['parent'] = -1
+    for i in range(len(tree.nodes)):
+        node = tree.nodes[i]
         n = node['count']
         node['skip'] = i + 2 * n - 1  # a subtree of n leaves has 2 n - 1 nodes
         node['ball'] = -1
         if n == 1:
-            number = work.order[node['first']]
+            number = tree.order[node['first']]
             node['ball'] = number
-            work.leaves[number] = i
+            tree.leaves[number] = i
             write_leaf(balls[number], node, radius)
             continue
         half = n // 2
-        partition(work.order, balls, node['first'], node['first'] + n, node['first'] + half)
-        set_node(work.nodes[i + 1], i, node['first'], half)
-        set_node(work.nodes[i + 2 * half], i, node['first'] + half, n - half)
+        partition(tree.order, balls, node['first'], node['first'] + n, node['first'] + half)
+        set_node(tree.nodes[i + 1], i, node['first'], half)
+        set_node(tree.nodes[i + 2 * half], i, node['first'] + half, n - half)
     # Children stand behind their parents: refit from the back.
-    for back in range(1, len(work.nodes) + 1):
-        i = len(work.nodes) - back
-        if work.nodes[i]['ball'] < 0:
-            refit(work, i)
+    for back in range(1, len(tree.nodes) + 1):
+        i = len(tree.nodes) - back
+        if tree.nodes[i]['ball'] < 0:
+            refit(tree, i)
 
 
 @kernel
@@ -189,32 +189,32 @@ def partition(order: np.ndarray, balls: np.ndarray, first: int, last: int, middl
 
 @ball_interactions.update_tree.register(MultiBallWorkspace)
 def _update_tree(work: MultiBallWorkspace, balls: np.ndarray, i: int, radius: float) -> None:
-    update_leaf(work, balls, i, radius)
+    update_leaf(work.tree, balls, i, radius)
 
 
 @shared
-def update_leaf(work: WorkRecord, balls: np.ndarray, i: int, radius: float) -> None:
+def update_leaf(tree: Tree, balls: np.ndarray, i: int, radius: float) -> None:
     """Update the tree for ball `i`'s new segment. Writes tree."""
     # A pile moves so little that most of its segments change nothing in the tree.
-    leaf = work.leaves[i]
-    if leaf_serves(balls[i], work.nodes[leaf], radius):
+    leaf = tree.leaves[i]
+    if leaf_serves(balls[i], tree.nodes[leaf], radius):
         return
-    work.count[TREE_AGE] += 1
-    if work.count[TREE_AGE] > len(balls):
-        rebuild(work, balls, radius)
+    tree.age[0] += 1
+    if tree.age[0] > len(balls):
+        rebuild(tree, balls, radius)
         return
-    write_leaf(balls[i], work.nodes[leaf], radius)
-    at = work.nodes[leaf]['parent']
+    write_leaf(balls[i], tree.nodes[leaf], radius)
+    at = tree.nodes[leaf]['parent']
     while at >= 0:
-        refit(work, at)
-        at = work.nodes[at]['parent']
+        refit(tree, at)
+        at = tree.nodes[at]['parent']
 
 
 @kernel
-def next_node(work: WorkRecord, at: int, low: Vector, high: Vector) -> int:
+def next_node(tree: Tree, at: int, low: Vector, high: Vector) -> int:
     """First leaf from node `at` on whose box overlaps that from `low` to `high`, or -1."""
-    while at < len(work.nodes):
-        node = work.nodes[at]
+    while at < len(tree.nodes):
+        node = tree.nodes[at]
         if (
             node['low'][0] > high[0]
             or node['high'][0] < low[0]

@@ -239,6 +239,7 @@ def relief_impact_time(
 ) -> tuple[float, bool]:
     """`time_of_impact` with a smooth surface: by its height below, and near it by its distance.
 
+    A loop of its own, out of line: most of its advances ask for a height and no nearest point.
     Writes segments_spent.
     """
     hollow = surfaces.hollow(ground, part)

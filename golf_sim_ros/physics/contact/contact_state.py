@@ -25,7 +25,7 @@ from ..trajectory.equations_of_motion import (
     LEAST_SPEED,
     material_under,
     pull_at,
-    rolling_deceleration,
+    resistance_holds,
     rolling_needs,
 )
 
@@ -118,16 +118,15 @@ def choose_contact_mode(land: Land, ball: BallRecord, now: float) -> None:
     v = add_scaled(load(ball['velocity']), -dot(load(ball['velocity']), normal), normal)
     k = land.ball.inertia
     turning = dot(load(ball['spin']), normal)
-    needed = rolling_needs(downhill, k)
     # Friction that turns the ball as it rolls must be within the cone of static friction.
-    grips = needed <= material['static_friction'] * press
+    grips = rolling_needs(downhill, k) <= material['static_friction'] * press
     store(ball['velocity'], v)
     sliding = slip(v, load(ball['spin']), normal, land.ball.radius)
     if not grips or ball['phase'] != ROLL and length(sliding) > LEAST_SPEED:
         begin_sliding(ball)
         return
     begin_rolling(ball)
-    holds = length(downhill) / (1.0 + k) <= rolling_deceleration(material, press, needed)
+    holds = resistance_holds(material, press, downhill, k)
     # Micro-bounces may still drive it: the air acts on them, and nothing resists.
     if length(v) <= LEAST_SPEED and holds and not in_micro_bounces(ball, now):
         v = ZERO

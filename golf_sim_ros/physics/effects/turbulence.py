@@ -33,16 +33,11 @@ from .wind_field import (
     directions_beside,
     Layout,
     layout_of,
-    mixed,
     Near,
-    neighbours,
-    Nodes,
-    place_in_height,
-    place_in_plan,
+    nodes_near,
+    smooth_vector,
     spline_weights,
     still,
-    upright,
-    Weights,
 )
 from ..geometry.surfaces import Ground
 from ..jit import kernel
@@ -147,33 +142,13 @@ def eddy_at(effect: Turbulence, position: Vector) -> Vector:
     """Velocity in the box, of unit variance, at a `position` and the time of the clock."""
     box = effect.box
     time = effect.clock[0] - effect.drift[2]
-    (i, p, q), along = wrapped(
-        (position[0] - effect.drift[0] - effect.wind[0] * time) / SPACING, box.shape[0]
-    )
-    (j, r, s), across = wrapped(
-        (position[1] - effect.drift[1] - effect.wind[1] * time) / SPACING, box.shape[1]
-    )
-    levels, up = wrapped(position[2] / SPACING, box.shape[2])
-    return mixed(
-        along,
-        mixed(
-            across,
-            upright(box, i, j, levels, up),
-            upright(box, i, r, levels, up),
-            upright(box, i, s, levels, up),
-        ),
-        mixed(
-            across,
-            upright(box, p, j, levels, up),
-            upright(box, p, r, levels, up),
-            upright(box, p, s, levels, up),
-        ),
-        mixed(
-            across,
-            upright(box, q, j, levels, up),
-            upright(box, q, r, levels, up),
-            upright(box, q, s, levels, up),
-        ),
+    x = (position[0] - effect.drift[0] - effect.wind[0] * time) / SPACING
+    y = (position[1] - effect.drift[1] - effect.wind[1] * time) / SPACING
+    return smooth_vector(
+        box,
+        wrapped(x, box.shape[0]),
+        wrapped(y, box.shape[1]),
+        wrapped(position[2] / SPACING, box.shape[2]),
     )
 
 
@@ -181,23 +156,18 @@ def eddy_at(effect: Turbulence, position: Vector) -> Vector:
 def deviation_at(effect: Turbulence, position: Vector, above: float) -> float:
     """Deviation [m/s] along the wind at a `position` that high `above` the ground."""
     field = effect.deviations
-    shape = field.shape
-    x, y = place_in_plan(effect.layout, position, shape)
-    columns, along = neighbours(x, shape[0])
-    rows, across = neighbours(y, shape[1])
-    levels, up = neighbours(place_in_height(effect.layout, position, above, shape[2]), shape[2])
-    a, b, c = along
-    total = a * sheet_at(field, columns[0], rows, across, (levels, up))
-    total += b * sheet_at(field, columns[1], rows, across, (levels, up))
-    total += c * sheet_at(field, columns[2], rows, across, (levels, up))
+    columns, rows, height = nodes_near(effect.layout, position, above, field.shape)
+    (i, p, q), (a, b, c) = columns
+    total = a * sheet_at(field, i, rows, height)
+    total += b * sheet_at(field, p, rows, height)
+    total += c * sheet_at(field, q, rows, height)
     return max(total, 0.0)
 
 
 @kernel
-def sheet_at(field: np.ndarray, i: int, rows: Nodes, across: Weights, height: Near) -> float:
+def sheet_at(field: np.ndarray, i: int, rows: Near, height: Near) -> float:
     """Sum over three rows and three levels of one number a node."""
-    j, r, s = rows
-    d, e, f = across
+    (j, r, s), (d, e, f) = rows
     (k, m, n), (g, h, o) = height
     return (
         d * (g * field[i, j, k] + h * field[i, j, m] + o * field[i, j, n])

@@ -158,48 +158,12 @@ def mixed(weights: Weights, first: Vector, second: Vector, third: Vector) -> Vec
 
 
 @kernel
-def place_in_plan(layout: Layout, position: Vector, shape: tuple[int, ...]) -> tuple[float, float]:
-    """Place of `position` among the columns of a field of that `shape`."""
-    return (
-        held_in((position[0] - layout.x) * layout.along_x, shape[0]),
-        held_in((position[1] - layout.y) * layout.along_y, shape[1]),
-    )
-
-
-@kernel
-def place_in_height(layout: Layout, position: Vector, above: float, levels: int) -> float:
-    """Place among the `levels` of a position `above` the ground."""
-    stretch = 1.0 - (position[2] - above - layout.datum) / layout.top
-    zeta = max(above, 0.0) / max(stretch, 0.1)
-    return held_in(log(1.0 + zeta / layout.first) * layout.along_z - layout.shift, levels)
-
-
-@kernel
-def smooth_map(values: np.ndarray, columns: Near, rows: Near) -> float:
-    """Value of a map in plan, between three columns and three rows with their weights."""
-    (i, p, q), (a, b, c) = columns
-    (j, r, s), (d, e, f) = rows
-    return (
-        a * (d * values[i, j] + e * values[i, r] + f * values[i, s])
-        + b * (d * values[p, j] + e * values[p, r] + f * values[p, s])
-        + c * (d * values[q, j] + e * values[q, r] + f * values[q, s])
-    )
-
-
-@kernel
-def wind_above(effect: WindField, position: Vector, above: float) -> Vector:
-    """Wind [m/s] at a `position` at that height `above` the ground."""
-    field = effect.now
-    layout = effect.layout
-    x, y = place_in_plan(layout, position, field.shape)
-    columns = neighbours(x, field.shape[0])
-    rows = neighbours(y, field.shape[1])
-    levels, up = neighbours(
-        place_in_height(layout, position, above, field.shape[2]), field.shape[2]
-    )
+def smooth_vector(field: np.ndarray, columns: Near, rows: Near, height: Near) -> Vector:
+    """Vector of a field, between three columns, three rows and three levels with their weights."""
     (i, p, q), along = columns
     (j, r, s), across = rows
-    ratio = mixed(
+    levels, up = height
+    return mixed(
         along,
         mixed(
             across,
@@ -220,6 +184,54 @@ def wind_above(effect: WindField, position: Vector, above: float) -> Vector:
             upright(field, q, s, levels, up),
         ),
     )
+
+
+@kernel
+def place_in_plan(layout: Layout, position: Vector, shape: tuple[int, ...]) -> tuple[float, float]:
+    """Place of `position` among the columns of a field of that `shape`."""
+    return (
+        held_in((position[0] - layout.x) * layout.along_x, shape[0]),
+        held_in((position[1] - layout.y) * layout.along_y, shape[1]),
+    )
+
+
+@kernel
+def place_in_height(layout: Layout, position: Vector, above: float, levels: int) -> float:
+    """Place among the `levels` of a position `above` the ground."""
+    stretch = 1.0 - (position[2] - above - layout.datum) / layout.top
+    zeta = max(above, 0.0) / max(stretch, 0.1)
+    return held_in(log(1.0 + zeta / layout.first) * layout.along_z - layout.shift, levels)
+
+
+@kernel
+def nodes_near(
+    layout: Layout, position: Vector, above: float, shape: tuple[int, ...]
+) -> tuple[Near, Near, Near]:
+    """Columns, rows and levels near a `position` that is that height `above` the ground."""
+    x, y = place_in_plan(layout, position, shape)
+    z = place_in_height(layout, position, above, shape[2])
+    return neighbours(x, shape[0]), neighbours(y, shape[1]), neighbours(z, shape[2])
+
+
+@kernel
+def smooth_map(values: np.ndarray, columns: Near, rows: Near) -> float:
+    """Value of a map in plan, between three columns and three rows with their weights."""
+    (i, p, q), (a, b, c) = columns
+    (j, r, s), (d, e, f) = rows
+    return (
+        a * (d * values[i, j] + e * values[i, r] + f * values[i, s])
+        + b * (d * values[p, j] + e * values[p, r] + f * values[p, s])
+        + c * (d * values[q, j] + e * values[q, r] + f * values[q, s])
+    )
+
+
+@kernel
+def wind_above(effect: WindField, position: Vector, above: float) -> Vector:
+    """Wind [m/s] at a `position` at that height `above` the ground."""
+    field = effect.now
+    layout = effect.layout
+    columns, rows, height = nodes_near(layout, position, above, field.shape)
+    ratio = smooth_vector(field, columns, rows, height)
     over_roughness = max(above, 0.0) * exp(smooth_map(effect.roughness, columns, rows))
     share = layout.weight * log(1.0 + over_roughness)
     return share * ratio[0], share * ratio[1], share * (ratio[2] + effect.velocity[2])

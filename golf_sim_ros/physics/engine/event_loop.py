@@ -120,13 +120,13 @@ def run_events(
         add_to_set(work, i)
         resolve(model, balls, i, work, log)
         since = count_cycles(work, stage, since)
-        for k in range(work.count[INVOLVED]):
+        for k in range(work.counts[INVOLVED]):
             end_if_over(model, balls[work.involved[k]], work.involved[k], now, log)
             plan_or_fail(model, balls[work.involved[k]], work.involved[k], now, log)
             since = note_segment(balls, work.involved[k], model.land.ball.radius, work, since)
         # All involved balls are planned before any is tested against others, whose segments must
         # be current.
-        for k in range(work.count[INVOLVED]):
+        for k in range(work.counts[INVOLVED]):
             limit_by_balls(balls, work.involved[k], model.land.ball.radius, now, work)
         clear_set(work)
     for i in range(len(balls)):

@@ -100,23 +100,22 @@ def rolling_resistance_of_stimp(stimp: float) -> float:
     return STIMPMETER_SPEED * STIMPMETER_SPEED / (2 * FOOT * stimp) / STANDARD_GRAVITY
 
 
-MATERIAL = np.dtype(
-    [
-        ('e0', 'f8'),
-        ('e1', 'f8'),
-        ('e2', 'f8'),
-        ('floor', 'f8'),
-        ('tangential_restitution', 'f8'),
-        ('static_friction', 'f8'),
-        ('dynamic_friction', 'f8'),
-        ('rolling_resistance', 'f8'),
-        ('pivot_friction', 'f8'),
-        ('softness', 'f8'),
-        ('resistance_growth', 'f8'),
-        ('ploughing', 'f8'),
-    ],
-    align=True,
-)
+# What a course file may say of each number of a material: at least, and at most where that has a
+# limit. Kernels read all of them.
+RANGES: dict[str, tuple[float, ...]] = {
+    'tangential_restitution': (-1.0, 1.0),
+    'static_friction': (0.0,),
+    'dynamic_friction': (0.0,),
+    'rolling_resistance': (0.0,),
+    'pivot_friction': (0.0,),
+    'softness': (0.0, 100.0),
+    'resistance_growth': (0.0, 100.0),
+    'ploughing': (0.0, 100.0),
+    'drag': (0.0, 1000.0),
+    'roughness': (1e-6, 10.0),
+    'canopy_drag': (0.0, 100.0),
+}
+MATERIAL = np.dtype([(name, 'f8') for name in (*Restitution._fields, *RANGES)], align=True)
 
 
 def table(materials: Iterable[Material]) -> np.ndarray:
@@ -125,20 +124,10 @@ def table(materials: Iterable[Material]) -> np.ndarray:
     Static friction is never less than dynamic friction: a contact that slips at once when it grips
     could neither roll nor slide.
     """
-    rows = [
-        (
-            *m.restitution,
-            m.tangential_restitution,
-            max(m.static_friction, m.dynamic_friction),
-            m.dynamic_friction,
-            m.rolling_resistance,
-            m.pivot_friction,
-            m.softness,
-            m.resistance_growth,
-            m.ploughing,
-        )
-        for m in materials
+    held = [
+        m._replace(static_friction=max(m.static_friction, m.dynamic_friction)) for m in materials
     ]
+    rows = [(*m.restitution, *(getattr(m, name) for name in RANGES)) for m in held]
     return np.array(rows, MATERIAL)
 
 

@@ -93,12 +93,12 @@ def resolve_contact_set(
     spin, bounces, moved_by_ball, struck_at, contacts, contact_counts, velocity_change,
     motion_before.
     """
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         mark_moved_by_ball(balls[work.involved[k]])
     store_motion_before(balls, work)
     simultaneous_impact.solve_reflections(land, balls, work)
     ball_interactions.log_ball_impacts(work, balls, now, log)
-    for n in range(first, work.count[CONTACTS]):
+    for n in range(first, work.counts[CONTACTS]):
         row = work.contacts[n]
         if row['b'] < 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
             ball = balls[row['a']]
@@ -118,7 +118,7 @@ def resolve_contact_set(
 
 @ball_interactions.log_ball_impacts.register(MultiBallWorkspace)
 def _log_ball_impacts(work: MultiBallWorkspace, balls: np.ndarray, now: float, log: Log) -> None:
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         row = work.contacts[n]
         if row['b'] >= 0 and row['approach_speed'] > LEAST_LOGGED_APPROACH:
             hit = BALL_HIT, row['b'], NOT_A_PART, load(row['normal'])
@@ -138,16 +138,16 @@ def store_motion_before(balls: np.ndarray, work: WorkRecord) -> None:
 
     Writes motion_before.
     """
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         i = work.involved[k]
-        store(work.motion_before[i, 0:3], load(balls[i]['velocity']))
-        store(work.motion_before[i, 3:6], load(balls[i]['spin']))
+        store(work.impact.motion_before[i, 0:3], load(balls[i]['velocity']))
+        store(work.impact.motion_before[i, 3:6], load(balls[i]['spin']))
 
 
 @kernel
 def motion_before(work: WorkRecord, i: int) -> tuple[Vector, Vector]:
     """Velocity and spin of ball `i` before the impact."""
-    return load(work.motion_before[i, 0:3]), load(work.motion_before[i, 3:6])
+    return load(work.impact.motion_before[i, 0:3]), load(work.impact.motion_before[i, 3:6])
 
 
 @kernel
@@ -156,7 +156,7 @@ def resume_motion(land: Land, balls: np.ndarray, now: float, work: WorkRecord, f
 
     Writes phase, step, velocity, spin, micro_bounce_end, sleeps_on_ball.
     """
-    for k in range(first, work.count[INVOLVED]):
+    for k in range(first, work.counts[INVOLVED]):
         ball = balls[work.involved[k]]
         if not moves(ball['phase']):
             if length(load(ball['velocity'])) + length(load(ball['spin'])) == 0.0:

@@ -67,10 +67,12 @@ def collect_contacts(
     already. Writes contacts, involved, motion, end, ending, apex.
     """
     k = 0
-    while k < work.count[INVOLVED]:
+    while k < work.counts[INVOLVED]:
         i = work.involved[k]
         if k >= known:
-            collect_ground_contacts(land, balls[i], i, work, 0 if k == 0 else work.count[CONTACTS])
+            collect_ground_contacts(
+                land, balls[i], i, work, 0 if k == 0 else work.counts[CONTACTS]
+            )
         if not balls[i]['time_stepping']:  # a pile passes an impulse on in its next time step
             ball_interactions.collect_ball_contacts(work, land, balls, i, now)
         k += 1
@@ -82,18 +84,18 @@ def add_to_set(work: WorkRecord, i: int) -> None:
 
     Writes involved.
     """
-    work.involved_index[i] = work.count[INVOLVED]
-    work.involved[work.count[INVOLVED]] = i
-    work.count[INVOLVED] += 1
+    work.involved_index[i] = work.counts[INVOLVED]
+    work.involved[work.counts[INVOLVED]] = i
+    work.counts[INVOLVED] += 1
 
 
 @kernel
 def clear_set(work: WorkRecord) -> None:
-    """Empty the contact set. Writes count, involved_index."""
-    for k in range(work.count[INVOLVED]):
+    """Empty the contact set. Writes counts, involved_index."""
+    for k in range(work.counts[INVOLVED]):
         work.involved_index[work.involved[k]] = -1
-    work.count[INVOLVED] = 0
-    work.count[CONTACTS] = 0
+    work.counts[INVOLVED] = 0
+    work.counts[CONTACTS] = 0
 
 
 @kernel
@@ -104,10 +106,10 @@ def add_contact(work: WorkRecord, a: int, b: int, part: int, normal: Vector) -> 
 
     Writes contacts.
     """
-    n = work.count[CONTACTS]
+    n = work.counts[CONTACTS]
     if n == len(work.contacts):
         return -1
-    work.count[CONTACTS] += 1
+    work.counts[CONTACTS] += 1
     row = work.contacts[n]
     row['a'] = a
     row['b'] = b
@@ -127,10 +129,10 @@ def _collect_ball_contacts(
     radius = land.ball.radius
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + SIMULTANEOUS_GAP)
-    at = next_node(work, 0, low, high)
+    at = next_node(work.tree, 0, low, high)
     while at >= 0:
-        j = work.nodes[at]['ball']
-        at = next_node(work, at + 1, low, high)
+        j = work.tree.nodes[at]['ball']
+        at = next_node(work.tree, at + 1, low, high)
         # A ball that is involved before this one has added the contact of the two already.
         if j == i or balls[j]['phase'] == HOLED or 0 <= work.involved_index[j] < k:
             continue
@@ -138,7 +140,7 @@ def _collect_ball_contacts(
         if length(apart) - 2.0 * radius > SIMULTANEOUS_GAP:
             continue
         if work.involved_index[j] < 0:
-            if work.count[INVOLVED] == MOST_MEMBERS:
+            if work.counts[INVOLVED] == MOST_MEMBERS:
                 continue
             add_to_set(work, j)
             synchronize(balls[j], now)
@@ -198,7 +200,7 @@ def collect_ground_contacts(
 @kernel
 def is_new_normal(work: WorkRecord, begin: int, normal: Vector) -> bool:
     """Whether no contact from row `begin` on has this `normal`."""
-    for n in range(begin, work.count[CONTACTS]):
+    for n in range(begin, work.counts[CONTACTS]):
         if dot(load(work.contacts[n]['normal']), normal) > 1.0 - SAME_NORMAL:
             return False
     return True
@@ -245,6 +247,6 @@ def count_approaching(balls: np.ndarray, work: WorkRecord) -> int:
     The support of a rolling ball approaches only by rounding.
     """
     found = 0
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         found += separation_rate(balls, work.contacts[n]) < -LEAST_SPEED
     return found

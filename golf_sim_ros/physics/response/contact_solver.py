@@ -63,8 +63,8 @@ WALL = 1e-3
 def contact_reach(work: WorkRecord) -> float:
     """Contact margin [m]: what is farther away can't be touched before the next time step."""
     fastest = 0.0
-    for k in range(work.count[INVOLVED]):
-        fastest = max(fastest, length(load(work.solved_motion[work.involved[k], 0:3])))
+    for k in range(work.counts[INVOLVED]):
+        fastest = max(fastest, length(load(work.solver.solved_motion[work.involved[k], 0:3])))
     return RESTING_GAP + 2.0 * TIME_STEP * fastest  # twice: two balls may approach each other
 
 
@@ -73,7 +73,7 @@ def add_ground_contacts(
     land: Land, ball: BallRecord, i: int, work: WorkRecord, reach: float
 ) -> None:
     """Add the contacts of ball `i` with the ground within `reach`. Writes contacts."""
-    begin = work.count[CONTACTS]
+    begin = work.counts[CONTACTS]
     place = load(ball['position'])
     low, high = surfaces.around(place, land.ball.radius + reach)
     part = surfaces.next_part(land.ground, 0, low, high)
@@ -114,12 +114,13 @@ def neighbours_within(
     """
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + reach)
+    neighbours = work.solver.neighbours
     found = 0
     watch = False
-    at = next_node(work, 0, low, high)
+    at = next_node(work.tree, 0, low, high)
     while at >= 0:
-        j = work.nodes[at]['ball']
-        at = next_node(work, at + 1, low, high)
+        j = work.tree.nodes[at]['ball']
+        at = next_node(work.tree, at + 1, low, high)
         if j == i or balls[j]['phase'] == HOLED:
             continue
         if work.involved_index[j] < 0 and moves(balls[j]['phase']):
@@ -129,10 +130,10 @@ def neighbours_within(
             and length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= reach
         ):
             k = found  # insertion sort
-            while k > 0 and work.neighbours[k - 1] > j:
-                work.neighbours[k] = work.neighbours[k - 1]
+            while k > 0 and neighbours[k - 1] > j:
+                neighbours[k] = neighbours[k - 1]
                 k -= 1
-            work.neighbours[k] = j
+            neighbours[k] = j
             found += 1
     return found, watch
 
@@ -167,39 +168,36 @@ def correct_positions(balls: np.ndarray, work: WorkRecord) -> None:
 
     Split impulses: stabilisation that adds no energy. Writes position, position_change.
     """
-    for k in range(work.count[INVOLVED]):
-        store(work.position_change[work.involved[k]], ZERO)
+    for k in range(work.counts[INVOLVED]):
+        store(work.solver.position_change[work.involved[k]], ZERO)
     for sweep in range(MOST_CORRECTIONS):
         if sweep_positions(work, sweep % 2 == 1) <= OVERLAP:
             break
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         place = balls[work.involved[k]]['position']
-        store(place, add(load(place), load(work.position_change[work.involved[k]])))
+        store(place, add(load(place), load(work.solver.position_change[work.involved[k]])))
 
 
 @kernel
 def sweep_positions(work: WorkRecord, backward: bool) -> float:
     """Sweep once over all penetrations; the greatest one [m] before. Writes position_change."""
     most = 0.0
-    count = work.count[CONTACTS]
+    changes = work.solver.position_change
+    count = work.counts[CONTACTS]
     for k in range(count):
         row = work.contacts[count - 1 - k if backward else k]
         normal = load(row['normal'])
-        overlap = -row['separation'] - dot(load(work.position_change[row['a']]), normal)
+        a = changes[row['a']]
+        overlap = -row['separation'] - dot(load(a), normal)
         if row['b'] >= 0:
-            overlap += dot(load(work.position_change[row['b']]), normal)
+            overlap += dot(load(changes[row['b']]), normal)
         if overlap > 0.0:
             most = max(most, overlap)
             share = 0.5 if row['b'] >= 0 else 1.0
-            store(
-                work.position_change[row['a']],
-                add_scaled(load(work.position_change[row['a']]), share * overlap, normal),
-            )
+            store(a, add_scaled(load(a), share * overlap, normal))
             if row['b'] >= 0:
-                store(
-                    work.position_change[row['b']],
-                    add_scaled(load(work.position_change[row['b']]), -share * overlap, normal),
-                )
+                b = changes[row['b']]
+                store(b, add_scaled(load(b), -share * overlap, normal))
     return most
 
 
@@ -215,7 +213,7 @@ def warm_start(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
 
     Writes normal_impulse, tangent_impulse, solved_motion.
     """
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         row = work.contacts[n]
         ball = balls[row['a']]
         for k in range(ball['stored_count']):
@@ -236,9 +234,9 @@ def store_impulses(balls: np.ndarray, work: WorkRecord) -> None:
 
     Writes stored_count, stored_partners, stored_impulses.
     """
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         balls[work.involved[k]]['stored_count'] = 0
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         row = work.contacts[n]
         ball = balls[row['a']]
         k = ball['stored_count']
@@ -252,10 +250,10 @@ def store_impulses(balls: np.ndarray, work: WorkRecord) -> None:
 @kernel
 def apply_normal_impulse(work: WorkRecord, row: ContactRecord, change: Vector) -> None:
     """Apply the impulse over mass `change` to both bodies of a contact. Writes solved_motion."""
-    a = work.solved_motion[row['a'], 0:3]
+    a = work.solver.solved_motion[row['a'], 0:3]
     store(a, add(load(a), change))
     if row['b'] >= 0:
-        b = work.solved_motion[row['b'], 0:3]
+        b = work.solver.solved_motion[row['b'], 0:3]
         store(b, sub(load(b), change))
 
 
@@ -269,21 +267,21 @@ def apply_tangent_impulse(
     """
     apply_normal_impulse(work, row, rub)
     twist = scale(-1.0 / (record.inertia * record.radius), cross(load(row['normal']), rub))
-    a = work.solved_motion[row['a'], 3:6]
+    a = work.solver.solved_motion[row['a'], 3:6]
     store(a, add(load(a), twist))
     if row['b'] >= 0:
-        b = work.solved_motion[row['b'], 3:6]
+        b = work.solver.solved_motion[row['b'], 3:6]
         store(b, add(load(b), twist))
 
 
 @kernel
 def relative_motion(work: WorkRecord, row: ContactRecord) -> tuple[Vector, Vector]:
     """Relative velocity of the two bodies of a contact, and the sum of their spins."""
-    velocity = load(work.solved_motion[row['a'], 0:3])
-    spin = load(work.solved_motion[row['a'], 3:6])
+    velocity = load(work.solver.solved_motion[row['a'], 0:3])
+    spin = load(work.solver.solved_motion[row['a'], 3:6])
     if row['b'] >= 0:
-        velocity = sub(velocity, load(work.solved_motion[row['b'], 0:3]))
-        spin = add(spin, load(work.solved_motion[row['b'], 3:6]))
+        velocity = sub(velocity, load(work.solver.solved_motion[row['b'], 0:3]))
+        spin = add(spin, load(work.solver.solved_motion[row['b'], 3:6]))
     return velocity, spin
 
 
@@ -294,7 +292,7 @@ def sweep_impulses(land: Land, work: WorkRecord, backward: bool) -> float:
     Writes solved_motion, normal_impulse, tangent_impulse.
     """
     most = 0.0
-    count = work.count[CONTACTS]
+    count = work.counts[CONTACTS]
     grip = land.ball.inertia / (1.0 + land.ball.inertia)
     for k in range(count):
         # Sweeps alternate in direction, so that no end of a pile is always solved last.
@@ -348,8 +346,8 @@ def write_back(ball: BallRecord, work: WorkRecord, i: int) -> None:
 
     Writes velocity, spin, contact, held_by, rolling_loss.
     """
-    store(ball['velocity'], load(work.solved_motion[i, 0:3]))
-    store(ball['spin'], load(work.solved_motion[i, 3:6]))
+    store(ball['velocity'], load(work.solver.solved_motion[i, 0:3]))
+    store(ball['spin'], load(work.solver.solved_motion[i, 3:6]))
     ball['rolling_loss'] = 0.0
     ball['held_by'] = 0
     store(ball['normal'], ZERO)

@@ -98,7 +98,7 @@ def resolve_ground_impact(
     contact_set.add_ground_contact(land, ball, i, (ball['target'], normal), material, work)
     contact_set.collect_contacts(land, balls, work, now, 1 if alone else 0)
     # A single approaching contact has a closed form; several at one instant are solved together.
-    if work.count[INVOLVED] > 1 or contact_set.count_approaching(balls, work) > 1:
+    if work.counts[INVOLVED] > 1 or contact_set.count_approaching(balls, work) > 1:
         resolve_contact_set(land, balls, now, work, 1, log)
         resume_motion(land, balls, now, work, 1)
     else:

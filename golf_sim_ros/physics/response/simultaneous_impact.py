@@ -45,9 +45,9 @@ def solve_reflections(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
     Writes velocity, spin, contacts, contact_counts, velocity_change.
     """
     contacts = work.contacts
-    count = work.count[CONTACTS]
+    count = work.counts[CONTACTS]
     fastest = 0.0
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         fastest = max(fastest, length(load(balls[work.involved[k]]['velocity'])))
     for round_ in range(MOST_REFLECTIONS):
         approaching = False
@@ -74,7 +74,7 @@ def project_impulses(work: WorkRecord) -> None:
     contact_count, contact_counts, velocity_change.
     """
     contacts = work.contacts
-    count = work.count[CONTACTS]
+    count = work.counts[CONTACTS]
     active = count_contacts(work)
     if active == 1:  # closed form: two balls share the change of the rate
         for n in range(count):
@@ -131,21 +131,21 @@ def count_contacts(work: WorkRecord) -> int:
     The first is that of each ball, the other that of the one of a contact's balls that has more of
     them.
     """
-    for k in range(work.count[INVOLVED]):
-        work.contact_counts[work.involved[k]] = 0.0
+    for k in range(work.counts[INVOLVED]):
+        work.impact.contact_counts[work.involved[k]] = 0.0
     active = 0
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         row = work.contacts[n]
         if row['active']:
             active += 1
-            work.contact_counts[row['a']] += 1.0
+            work.impact.contact_counts[row['a']] += 1.0
             if row['b'] >= 0:
-                work.contact_counts[row['b']] += 1.0
-    for n in range(work.count[CONTACTS]):
+                work.impact.contact_counts[row['b']] += 1.0
+    for n in range(work.counts[CONTACTS]):
         row = work.contacts[n]
-        row['contact_count'] = work.contact_counts[row['a']]
+        row['contact_count'] = work.impact.contact_counts[row['a']]
         if row['b'] >= 0:
-            row['contact_count'] = max(row['contact_count'], work.contact_counts[row['b']])
+            row['contact_count'] = max(row['contact_count'], work.impact.contact_counts[row['b']])
     return active
 
 
@@ -155,15 +155,15 @@ def apply_extrapolated(work: WorkRecord) -> None:
 
     Writes velocity_change.
     """
-    for k in range(work.count[INVOLVED]):
-        store(work.velocity_change[work.involved[k]], ZERO)
-    for n in range(work.count[CONTACTS]):
+    for k in range(work.counts[INVOLVED]):
+        store(work.impact.velocity_change[work.involved[k]], ZERO)
+    for n in range(work.counts[CONTACTS]):
         row = work.contacts[n]
         if row['active'] and row['extrapolated_impulse'] != 0.0:
-            a = work.velocity_change[row['a']]
+            a = work.impact.velocity_change[row['a']]
             store(a, add_scaled(load(a), row['extrapolated_impulse'], load(row['normal'])))
             if row['b'] >= 0:
-                b = work.velocity_change[row['b']]
+                b = work.impact.velocity_change[row['b']]
                 store(b, add_scaled(load(b), -row['extrapolated_impulse'], load(row['normal'])))
 
 
@@ -171,9 +171,9 @@ def apply_extrapolated(work: WorkRecord) -> None:
 def rate_change(work: WorkRecord, row: ContactRecord) -> float:
     """Change of a contact's rate [m/s] by velocity_change."""
     normal = load(row['normal'])
-    change = dot(load(work.velocity_change[row['a']]), normal)
+    change = dot(load(work.impact.velocity_change[row['a']]), normal)
     if row['b'] >= 0:
-        change -= dot(load(work.velocity_change[row['b']]), normal)
+        change -= dot(load(work.impact.velocity_change[row['b']]), normal)
     return change
 
 
@@ -181,29 +181,36 @@ def rate_change(work: WorkRecord, row: ContactRecord) -> float:
 def apply_impulses(land: Land, balls: np.ndarray, work: WorkRecord, last: bool) -> None:
     """Apply normal impulses, with restitution unless it is the `last` round, then friction.
 
-    Writes motion, and normal_impulse [N s], tangent_impulse, impulse.
+    Writes motion, friction_impulse, impulse.
     """
     contacts = work.contacts
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            e = 0.0 if last else row['restitution']
-            row['normal_impulse'] *= (1.0 + e) * land.ball.mass
-            apply_to_both(land, balls, row, scale(row['normal_impulse'], load(row['normal'])))
+            push = applied_impulse(land, row, last)
+            apply_to_both(land, balls, row, scale(push, load(row['normal'])))
     # All tangential impulses are found before any is applied (Jacobi, not Gauss-Seidel), and the
     # contacts of a ball share its slip: so no contact comes first.
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         row = contacts[n]
         if row['active']:
             bond = ContactProperties(
                 0.0, row['tangential_restitution'], row['friction'], row['mass'], land.ball.inertia
             )
-            rub = friction(bond, row['normal_impulse'], contact_slip(land, balls, row))
-            store(row['tangent_impulse'], scale(1.0 / row['contact_count'], rub))
-    for n in range(work.count[CONTACTS]):
+            push = applied_impulse(land, row, last)
+            rub = friction(bond, push, contact_slip(land, balls, row))
+            store(row['friction_impulse'], scale(1.0 / row['contact_count'], rub))
+    for n in range(work.counts[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            apply_to_both(land, balls, row, load(row['tangent_impulse']))
+            apply_to_both(land, balls, row, load(row['friction_impulse']))
+
+
+@kernel
+def applied_impulse(land: Land, row: ContactRecord, last: bool) -> float:
+    """Compute a contact's normal impulse [N s], with restitution unless in the `last` round."""
+    e = 0.0 if last else row['restitution']
+    return row['normal_impulse'] * ((1.0 + e) * land.ball.mass)
 
 
 @kernel

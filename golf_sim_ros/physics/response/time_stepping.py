@@ -47,7 +47,7 @@ from ..collision import ball_interactions
 from ..collision.ball_gap import position_at
 from ..collision.broad_phase import next_node
 from ..collision.ground_contact import RESTING_GAP
-from ..collision.workspace import ASLEEP, CONTACTS, INVOLVED, MultiBallWorkspace
+from ..collision.workspace import CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import touch_down
 from ..effects import gravity_at
 from ..geometry import surfaces
@@ -118,16 +118,16 @@ def touches_ball(balls: np.ndarray, work: WorkRecord, i: int, radius: float, now
     """Whether another ball is within RESTING_GAP of ball `i`."""
     here = load(balls[i]['position'])
     low, high = surfaces.around(here, radius + RESTING_GAP)
-    at = next_node(work, 0, low, high)
+    at = next_node(work.tree, 0, low, high)
     while at >= 0:
-        j = work.nodes[at]['ball']
+        j = work.tree.nodes[at]['ball']
         if (
             j != i
             and balls[j]['phase'] != HOLED
             and (length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= RESTING_GAP)
         ):
             return True
-        at = next_node(work, at + 1, low, high)
+        at = next_node(work.tree, at + 1, low, high)
     return False
 
 
@@ -147,18 +147,18 @@ def _step_together(
 
 @ball_interactions.wake.register(MultiBallWorkspace)
 def _wake(work: MultiBallWorkspace, balls: np.ndarray, radius: float, now: float) -> None:
-    if not work.count[ASLEEP]:
+    if not work.asleep[0]:
         return
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         i = work.involved[k]
         if balls[i]['phase'] == REST:
             continue
         here = load(balls[i]['position'])
         low, high = surfaces.around(here, radius + 2.0 * RESTING_GAP)
-        at = next_node(work, 0, low, high)
+        at = next_node(work.tree, 0, low, high)
         while at >= 0:
-            j = work.nodes[at]['ball']
-            at = next_node(work, at + 1, low, high)
+            j = work.tree.nodes[at]['ball']
+            at = next_node(work.tree, at + 1, low, high)
             other = balls[j]
             if (
                 work.involved_index[j] < 0
@@ -184,16 +184,16 @@ def solve_time_step(land: Land, balls: np.ndarray, now: float, work: WorkRecord)
             add_to_set(work, i)
             synchronize(balls[i], now)
     # Gravity first: contacts have to hold a ball against it.
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         apply_gravity(land, balls, work, work.involved[k])
     collect_resting_contacts(land, balls, work, now)
     correct_positions(balls, work)
     solve_contacts(land, balls, work)
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         write_back(balls[work.involved[k]], work, work.involved[k])
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         count_support(land, balls, work.contacts[n])
-    for k in range(work.count[INVOLVED]):
+    for k in range(work.counts[INVOLVED]):
         choose_after_step(land, balls[work.involved[k]], now, work)
 
 
@@ -209,8 +209,8 @@ def apply_gravity(land: Land, balls: np.ndarray, work: WorkRecord, i: int) -> No
     time = TIME_STEP if ball['time_stepping'] == STEPPED else 0.5 * TIME_STEP
     ball['time_stepping'] = STEPPED
     weight = gravity_at(land.effects, load(ball['position']))
-    store(work.solved_motion[i, 0:3], add_scaled(load(ball['velocity']), time, weight))
-    store(work.solved_motion[i, 3:6], load(ball['spin']))
+    store(work.solver.solved_motion[i, 0:3], add_scaled(load(ball['velocity']), time, weight))
+    store(work.solver.solved_motion[i, 3:6], load(ball['spin']))
 
 
 @shared
@@ -222,14 +222,14 @@ def collect_resting_contacts(land: Land, balls: np.ndarray, work: WorkRecord, no
     """
     reach = contact_reach(work)
     k = 0
-    while k < work.count[INVOLVED]:
+    while k < work.counts[INVOLVED]:
         i = work.involved[k]
         add_ground_contacts(land, balls[i], i, work, reach)
         found, watch = neighbours_within(balls, work, i, reach, land.ball.radius, now)
         balls[i]['contact_reach'] = reach
         balls[i]['watches_neighbours'] = watch
         for n in range(found):
-            j = work.neighbours[n]
+            j = work.solver.neighbours[n]
             if 0 <= work.involved_index[j] < k:
                 continue  # ball j has added this contact already
             if work.involved_index[j] < 0:
@@ -252,7 +252,7 @@ def collect_resting_contacts(land: Land, balls: np.ndarray, work: WorkRecord, no
 def choose_after_step(land: Land, ball: BallRecord, now: float, work: WorkRecord) -> None:
     """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
 
-    Writes motion, phase, step, pile, count.
+    Writes motion, phase, step, pile, asleep.
     """
     speed = length(load(ball['velocity']))
     left = max(speed - ball['rolling_loss'], 0.0)
@@ -266,7 +266,7 @@ def choose_after_step(land: Land, ball: BallRecord, now: float, work: WorkRecord
     take_off(ball)
     if ball['still_steps'] > STEPS_TO_SLEEP:
         ball['sleeps_on_ball'] = 1 if ball['held_by'] > 1 else 0
-        work.count[ASLEEP] |= ball['sleeps_on_ball']
+        work.asleep[0] |= ball['sleeps_on_ball']
         return_to_events(ball)
         come_to_rest(ball)
     elif (

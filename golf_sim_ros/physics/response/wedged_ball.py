@@ -72,20 +72,20 @@ def step_wedged(land: Land, balls: np.ndarray, i: int, now: float, work: WorkRec
     integrator, pile, contacts, solved_motion, position_change.
     """
     ball = balls[i]
-    store(work.solved_motion[i, 0:3], load(ball['velocity']))
-    store(work.solved_motion[i, 3:6], load(ball['spin']))
-    work.count[CONTACTS] = 0
+    store(work.solver.solved_motion[i, 0:3], load(ball['velocity']))
+    store(work.solver.solved_motion[i, 3:6], load(ball['spin']))
+    work.counts[CONTACTS] = 0
     add_ground_contacts(land, ball, i, work, HOLDING_GAP)
-    store(work.position_change[i], ZERO)
+    store(work.solver.position_change[i], ZERO)
     for sweep in range(WEDGED_SWEEPS):
         if sweep_impulses(land, work, sweep % 2 == 1) <= 0.01 * LEAST_SPEED:
             break
     for sweep in range(WEDGED_SWEEPS):
         if sweep_positions(work, sweep % 2 == 1) <= TOUCH:
             break
-    store(ball['position'], add(load(ball['position']), load(work.position_change[i])))
+    store(ball['position'], add(load(ball['position']), load(work.solver.position_change[i])))
     write_back(ball, work, i)
-    for n in range(work.count[CONTACTS]):
+    for n in range(work.counts[CONTACTS]):
         count_support(land, balls, work.contacts[n])
     left = max(length(load(ball['velocity'])) - ball['rolling_loss'], 0.0)
     limit_speed(ball, left)

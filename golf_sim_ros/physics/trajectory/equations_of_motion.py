@@ -71,13 +71,21 @@ def rolling_deceleration(material: MaterialRecord, press: float, needed: float) 
     """Deceleration [m/s^2] of a rolling ball: rolling resistance, as far as grip allows.
 
     Friction has to brake the ball, and to turn it as it speeds up downhill, for which it is
-    `needed`: on a plane k/(1 + k) of the pull. So a ball stays at rest where (5/7) tan <= rolling
-    resistance and tan <= static friction.
+    `needed`: on a plane k/(1 + k) of the pull.
     """
     return min(
         material['rolling_resistance'] * press,
         max(material['static_friction'] * press - needed, 0.0),
     )
+
+
+@kernel
+def resistance_holds(
+    material: MaterialRecord, press: float, downhill: Vector, inertia: float
+) -> bool:
+    """Whether rolling resistance keeps a ball that grips at rest: where (5/7) tan is within it."""
+    needed = rolling_needs(downhill, inertia)
+    return length(downhill) / (1.0 + inertia) <= rolling_deceleration(material, press, needed)
 
 
 @kernel
