@@ -45,11 +45,11 @@ HEAD = """\
 
 Made by `make hard`: every case of `test/physics/hard_cases/`, with every preset, at ticks of 50,
 250 and 1000 Hz. In all of them the ball must stay finite, out of the ground to 2e-6 m (`sketch`:
-1e-5 m, by which it lets a path be off), gain no energy in still air beyond 1e-9 of it and 2e-5 J/kg
-a tick, and come to its end. A cell is how far from the
-expected place and velocity it ended, at the worst of the three rates, in metres and m/s: to be
-held against `within`, which is asked of `standard`. A rougher preset may be off by what it
-promises. *fails* says what did not hold; "as it may": nothing exact is expected. The tables of
+1e-5 m, by which it lets a path be off), gain no energy in still air beyond 1e-9 of it and 2e-5
+J/kg a tick, and come to its end. A cell is how far from the expected place and velocity it ended,
+at the worst of the three rates, in metres and m/s: to be held against `within`, which is asked of
+`standard`. A rougher preset may be off by what it promises. *fails* says what did not hold; "as it
+may": nothing exact is expected. The tables of
 `test/physics/hard_scenes.py` show the figure itself at the worst of the rates, beside the range
 that is expected of it.
 """

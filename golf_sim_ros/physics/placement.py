@@ -14,8 +14,9 @@
 
 """Placement: where balls are teed, put down and dropped, and where they can't be."""
 
+from functools import lru_cache
 from math import atan2, cos, hypot, inf, isfinite, pi, sin
-from typing import Callable, Iterable, Iterator, NamedTuple, Optional, Sequence
+from typing import Callable, Hashable, Iterable, Iterator, NamedTuple, Optional, Sequence
 
 import numpy as np
 
@@ -93,10 +94,41 @@ def placed(site: Site, balls: np.ndarray, number: int, position: Sequence[float]
 
     `NoPlace` where it is not free.
     """
-    ball = balls[number].copy()
-    put_ball_down(site, ball, position)
+    ball = put_down_once(Putting(site, balls[number].copy(), tuple(position))).copy()
     if not is_free(site, balls, number, three(ball['position'])):
         raise NoPlace(f'position {position} is taken by another ball')
+    return ball
+
+
+class Putting(NamedTuple):
+    """What decides where a ball comes to lie: the `site`, its record before, its `position`.
+
+    The ground is compared by identity, as it is built once a course: see `kernel_model.ground`.
+    """
+
+    site: Site
+    ball: BallRecord
+    position: tuple[float, ...]
+
+    @property
+    def key(self) -> tuple[Hashable, ...]:
+        """What is equal where the outcome is."""
+        site = self.site
+        land, hole = site.model.land, (site.course.hole, site.course.flagstick)
+        return id(land.ground), land.ball, hole, site.put_down, self.position, self.ball.tobytes()
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Putting) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+
+@lru_cache(maxsize=8)
+def put_down_once(putting: Putting) -> BallRecord:
+    """Record of a ball that is put down; kept, for every new world puts its balls on the tee."""
+    site, ball, position = putting
+    put_ball_down(site, ball := ball.copy(), position)
     return ball
 
 

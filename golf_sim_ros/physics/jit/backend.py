@@ -52,6 +52,7 @@ from .kept import keep_compiled
 OPTIONS = {'error_model': 'numpy', 'nogil': True, 'no_cfunc_wrapper': True, 'fastmath': {'nsz'}}
 DISPATCHERS: dict[Callable[..., Any], Any] = {}  # by function
 REGISTERED: set[GenericKernel[..., Any]] = set()  # generics that are declared to numba
+DECLARED = [(0, 0, 0)]  # how many kernels, generics and their cases
 CACHE = cache_.folder()
 
 if CACHE.path and not os.environ.get('NUMBA_CACHE_DIR'):
@@ -68,10 +69,10 @@ def dispatcher(function: Function) -> Function:
 
 
 def declare() -> None:
-    """Declare all kernels and generics to numba.
-
-    Effects may have been registered since the last time.
-    """
+    """Declare all kernels and generics to numba, unless nothing was registered since last time."""
+    known = len(ROLES), len(GENERICS), sum(len(generic.cases) for generic in GENERICS)
+    if known == DECLARED[-1]:
+        return
     for function, role in list(ROLES.items()):
         if function not in DISPATCHERS:
             DISPATCHERS[function] = made = new_dispatcher(function, role)
@@ -83,6 +84,7 @@ def declare() -> None:
         if generic not in REGISTERED:
             REGISTERED.add(generic)
             declare_generic(generic)
+    DECLARED[:] = [known]
 
 
 def new_dispatcher(function: Callable[..., Any], role: str) -> Any:
