@@ -29,6 +29,7 @@ from golf_sim_ros.nodes.environment import complete_environment
 from golf_sim_ros.physics import World
 from golf_sim_ros.shot_input.clubs import CLUBS
 from golf_sim_ros.shot_input.launch_monitor import Launch, velocity_and_spin
+from golf_sim_ros.shot_input.units import UNITS
 import numpy as np
 import rclpy
 from rclpy.signals import SignalHandlerOptions
@@ -127,8 +128,8 @@ def approach(last):
 
 def putt(last):
     """Name and arguments of a shot along the ground that rolls to the hole."""
-    speed = enough(last, Launch, HARDEST)
-    return 'putt', ['putter', '--units', 'si', '--speed', f'{speed:.3f}']
+    speed = enough(last, Launch, HARDEST) / UNITS['golf'].speed.size  # in shoot's units
+    return 'putt', ['putter', '--speed', f'{speed:.2f}']
 
 
 def enough(last, launch, most):

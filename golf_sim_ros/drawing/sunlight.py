@@ -14,12 +14,11 @@
 
 """Sun and mowing stripes on triangles of the ground, for viewers that show colours as they are."""
 
-from collections.abc import Sequence
-from math import floor
-from typing import Any
+from math import ceil, floor
 
 import numpy as np
 
+from .parted_triangles import ON_LINE, parted
 from ..physics import Material
 
 SUN = np.array([-0.676, 0.586, 0.446])  # unit vector towards it: low, from behind on the left
@@ -27,7 +26,6 @@ SHADE = 0.5  # brightness of what the sun does not reach; level ground has 1
 BRIGHTEST = 1.5
 STRIPES = {'fairway': 7.0, 'tee': 1.5, 'green': 1.8, 'firm_green': 1.8, 'soft_green': 1.8}  # m
 CONTRAST = 0.07  # of a stripe to either side
-SEAM = 1e-6  # m: what begins at the edge of a stripe belongs to it
 
 
 def lit(corners: np.ndarray, material: Material) -> np.ndarray:
@@ -36,7 +34,7 @@ def lit(corners: np.ndarray, material: Material) -> np.ndarray:
     Parameters
     ----------
     corners : ndarray, (n, 3, 3)
-        x, y, z of the corners of each [m].
+        x, y, z of the corners of each [m]; each lies in one stripe, as `banded` makes them.
     material : Material
 
     Returns
@@ -51,35 +49,18 @@ def lit(corners: np.ndarray, material: Material) -> np.ndarray:
     light = SHADE + (1.0 - SHADE) * np.clip(normals @ SUN, 0.0, None) / SUN[2]
     width = STRIPES.get(material.name)
     if width:
-        # by the left edge, which the two triangles of a height map's cell have in common
-        band = np.floor((corners[:, :, 0].min(1) + SEAM) / width).astype(int)
+        band = np.floor((corners[:, :, 0].min(1) + 2.0 * ON_LINE) / width).astype(int)
         light = light * np.where(band % 2 == 0, 1.0 + CONTRAST, 1.0 - CONTRAST)
     shaded = np.minimum(light, BRIGHTEST)[:, np.newaxis] * np.array(material.color, float)
     return np.clip(shaded, 0.0, 1.0)
 
 
-def banded(triangles: Sequence[Any], material: Material) -> Sequence[Any]:
-    """Triangles of (x, y), cut where stripes of their material meet; as they are without any."""
+def banded(corners: np.ndarray, material: Material) -> np.ndarray:
+    """Triangles (n, 3, 3), cut where stripes of their material meet; as they are without any."""
     width = STRIPES.get(material.name)
-    if not width:
-        return triangles
-    found = []
-    for triangle in triangles:
-        low, high = min(corner[0] for corner in triangle), max(corner[0] for corner in triangle)
-        for band in range(floor(low / width), floor(high / width) + 1):
-            part = beyond(triangle, band * width, 1.0)
-            part = beyond(part, (band + 1) * width, -1.0)
-            found += [(part[0], b, c) for b, c in zip(part[1:], part[2:])]
-    return found
-
-
-def beyond(polygon: Sequence[Any], edge: float, side: float) -> list:
-    """Part of a convex polygon of (x, y) where `side` (x - edge) is not negative."""
-    kept = []
-    for (ax, ay), (bx, by) in zip(polygon, [*polygon[1:], *polygon[:1]]):
-        a, b = side * (ax - edge), side * (bx - edge)
-        if a >= 0.0:
-            kept.append((ax, ay))
-        if (a > 0.0 > b) or (a < 0.0 < b):
-            kept.append((edge, ay + (by - ay) * (edge - ax) / (bx - ax)))
-    return kept
+    if not width or not len(corners):
+        return corners
+    x = corners[:, :, 0]
+    for band in range(ceil(x.min() / width), floor(x.max() / width) + 1):
+        corners = parted(corners, corners[:, :, 0] - band * width)
+    return corners

@@ -20,7 +20,8 @@ from typing import Any
 
 import numpy as np
 
-from .polygon_triangles import Polygon, triangles
+from .parted_triangles import boxes, parted_along
+from .polygon_triangles import Polygon, sides, triangles
 from ..physics import Material
 from ..physics.geometry.zone import places_inside, zones_of
 
@@ -89,16 +90,29 @@ def boxes_meet(one: Polygon, other: Polygon) -> bool:
 def curved(
     corners: np.ndarray, material: Material, zones: Sequence[Any]
 ) -> list[tuple[Material, np.ndarray]]:
-    """Paint triangles with `zones`: each of `corners`, (n, 3, 3), as its middle.
+    """Paint triangles (n, 3, 3), `corners`, with `zones`, along whose edges they are cut.
 
     Returns pairs of a material and its triangles.
     """
     corners = np.asarray(corners, float)
+    for zone in zones_of(zones):
+        for polygon in (zone.polygon, *zone.cut):
+            corners = parted_around(corners, polygon)
     paint = last_zone(zones, *corners[..., :2].mean(1).T)
     return [
         (zones[number][0] if number >= 0 else material, corners[paint == number])
         for number in np.unique(paint)
     ]
+
+
+def parted_around(corners: np.ndarray, polygon: Polygon) -> np.ndarray:
+    """Triangles (n, 3, 3), those cut through which an edge of `polygon` goes."""
+    least, most = boxes(corners)
+    near = ((least <= np.max(polygon, 0)) & (np.min(polygon, 0) <= most)).all(1)
+    pieces = corners[near]
+    for start, end in sides(polygon):
+        pieces = parted_along(pieces, start, end)
+    return np.concatenate([corners[~near], pieces])
 
 
 def last_zone(zones: Sequence[Any], x: np.ndarray, y: np.ndarray) -> np.ndarray:

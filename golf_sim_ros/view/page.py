@@ -60,6 +60,12 @@ addEventListener("pointerup", () => setTimeout(() => {
 }));
 """
 
+# Quasar places a list within 0.35 s, but fills it in the next frame: too late where that is slow.
+PLACE_LIST = """() => {
+  const place = () => getElement(%d).$refs.qRef.updateMenuPosition();
+  requestAnimationFrame(() => requestAnimationFrame(place));
+}"""
+
 
 class GolfScene(Element, component='golf_scene.js', esm={'golf-view': 'js'}):  # type: ignore
     """The picture: of a live play (`feed`), or of a recorded one on a course."""
@@ -140,6 +146,7 @@ class PlayPage:
         with ui.column().classes('strike'):
             self.club = ui.select(names, value='driver', on_change=self.on_club)
             self.club.on('popup-hide', js_handler='() => document.activeElement?.blur()')
+            self.club.on('popup-show', js_handler=PLACE_LIST % self.club.id)
             self.club.props('dark dense options-dense borderless').style('width:100%')
             self.power = self.slider('Power', 8, 110, 100, 1, self.power_text)
             self.aim = self.slider('Aim', -40, 40, 0, 0.2, self.aim_text)

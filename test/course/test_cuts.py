@@ -15,7 +15,7 @@
 """Zones and water with a cut, as fairways around bunkers and ponds around islands; and rounds."""
 
 from golf_sim_ros.course import CourseError, load_course, load_round
-from golf_sim_ros.drawing.zone_triangles import flat, in_region, last_zone
+from golf_sim_ros.drawing.zone_triangles import curved, flat, in_region, last_zone, sheet
 from golf_sim_ros.physics import ground_height, Shot, simulate, World
 from golf_sim_ros.physics.geometry import polygon
 from golf_sim_ros.physics.geometry.zone import Zone
@@ -278,3 +278,18 @@ def test_many_zones_are_shown_as_few_are():
         own = shown & (last >= 0) & (last % 3 == number)
         assert found[f'zone {number}'] == pytest.approx(own.sum() / 16)
     assert found['turf'] == pytest.approx((shown & (last < 0)).sum() / 16)
+
+
+def test_ground_that_is_not_flat_is_painted_up_to_the_edges_of_zones():
+    sand, grass, turf = (Material(name) for name in ('sand', 'grass', 'turf'))
+    x, y = np.linspace(-35.0, 35.0, 24), np.linspace(-33.0, 33.0, 10)
+    hook = ((22.0, -9.0), (33.0, -20.0), (34.0, 12.5), (30.0, 0.3), (23.0, 12.0))
+    corners = sheet(x, y, np.add.outer(0.2 * y, 0.1 * x))
+    painted = dict(curved(corners, grass, [Zone(turf, RING, (HOLE,)), Zone(sand, hook)]))
+    found = {material.name: area(pieces[:, :, :2]) for material, pieces in painted.items()}
+    sandy = 233.4  # by the shoelace formula
+    wanted = {'sand': sandy, 'turf': 1200.0, 'grass': 70.0 * 66.0 - 1200.0 - sandy}
+    assert found == pytest.approx(wanted, abs=1e-2)
+    for pieces in painted.values():
+        east, north, up = pieces.reshape(-1, 3).T
+        np.testing.assert_allclose(up, 0.1 * east + 0.2 * north, atol=1e-9)

@@ -74,20 +74,26 @@ def test_stripes_follow_each_other():
 
 
 @given(strategies.tuples(*[strategies.tuples(place, place)] * 3))
-def test_bands_cover_the_triangle_and_lie_in_one_stripe_each(triangle):
-    pieces = banded([triangle], MOWN)
+def test_bands_cover_the_triangle_and_lie_in_one_stripe_and_in_its_plane(triangle):
+    triangle = np.array([[(x, y, 0.1 * x - 0.2 * y) for x, y in triangle]])
+    pieces = banded(triangle, MOWN)
     width = STRIPES['fairway']
-    for piece in pieces:
-        xs = [x for x, _ in piece]
-        assert max(xs) - min(xs) < width + 1e-6
-    assert sum(map(area, pieces)) == pytest.approx(area(triangle), abs=1e-6)
-    assert banded([triangle], GRASS) == [triangle]
+    assert np.ptp(pieces[:, :, 0], axis=1).max() < width + 1e-5
+    middle = pieces[:, :, 0].mean(1)
+    bands = np.floor(middle / width)
+    sound = np.ptp(pieces[:, :, 0], axis=1) > 1e-3  # the rest is no more than a line
+    own = lit(pieces, MOWN)[sound, 0] > lit(pieces, GRASS)[sound, 0]
+    assert (own == (bands[sound] % 2 == 0)).all()
+    x, y, z = pieces.reshape(-1, 3).T
+    np.testing.assert_allclose(z, 0.1 * x - 0.2 * y, atol=1e-9)
+    assert areas(pieces).sum() == pytest.approx(areas(triangle).sum(), abs=1e-3)
+    assert banded(triangle, GRASS) is triangle
 
 
-def area(corners):
-    """Area of a triangle."""
-    (ax, ay), (bx, by), (cx, cy) = corners
-    return abs((bx - ax) * (cy - ay) - (cx - ax) * (by - ay)) / 2
+def areas(corners):
+    """Areas of triangles (n, 3, 3)."""
+    sides = corners[:, 1:] - corners[:, :1]
+    return 0.5 * np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
 
 
 def test_a_ball_has_a_halo_and_the_pin_its_distance():
@@ -99,13 +105,20 @@ def test_a_ball_has_a_halo_and_the_pin_its_distance():
     }
     assert made['halo', 0].scale.x == HALO and made['halo', 0].color.a < 1.0
     assert made['halo', 0].pose.position == made['ball', 0].pose.position
-    assert made['text', 0].text == '346 m'
+    assert made['text', 0].text == '346 m' and 3.0 < made['text', 0].scale.z < 8.0
     assert made['text', 1].action == Marker.DELETE
     scene.ended = SimpleNamespace(
         position=(1.0, 2.0, 3.0), lie='rough', status='at_rest', total=12.3
     )
     made = scene.markers(header('course', 0, 0.0), world, (0.0, 0.0, 0.0)).markers
     assert [marker.text for marker in made if marker.ns == 'text'][1] == '12.3 m, rough'
+
+
+def test_words_on_a_short_hole_are_small():
+    world = World(load_course('putting_green'), ('ball',), engine='python')
+    made = Scene(world).markers(header('course', 0, 0.0), world, (0.0, 0.0, 0.0)).markers
+    pin = next(marker for marker in made if (marker.ns, marker.id) == ('text', 0))
+    assert pin.text == '3.0 m' and pin.scale.z < 0.3 and pin.pose.position.z < 0.5
 
 
 def frames(frame):

@@ -247,6 +247,36 @@ def test_cameras_units_and_hints_follow_keys_and_switches(open_page, hole):
     assert page.errors == []
 
 
+def click(page, box):
+    """Press the mouse's button amid a box."""
+    page.mouse.click(box['x'] + 0.5 * box['width'], box['y'] + 0.5 * box['height'])
+
+
+def test_after_the_mouse_has_been_used_arrow_keys_aim_and_set_the_power(open_page, hole):
+    page = open_page(hole[1])
+    page.evaluate('window.golfLeastGap = 1')
+    predicted = "golf.ready && document.querySelector('.strike .aside').innerText"
+    page.wait_for_function(predicted, timeout=PATIENCE)
+    panel = page.locator('.strike')
+    click(page, panel.locator('.q-select .q-field__control').bounding_box())
+    page.wait_for_function("document.querySelector('.q-menu')?.style.top", timeout=PATIENCE)
+    item = page.locator('.q-menu .q-item').nth(3)
+    item.evaluate('item => item.scrollIntoView()')
+    name, box = item.inner_text(), item.bounding_box()
+    assert 0 <= box['y'] < 300 - box['height'], 'the list is where it is seen'
+    click(page, box)
+    page.wait_for_selector('.q-menu', state='detached', timeout=PATIENCE)
+    wait_until(lambda: name in panel.inner_text(), 'the club is chosen')
+    page.keyboard.press('ArrowRight')
+    wait_until(lambda: '0.4° right' in panel.inner_text(), 'the stroke is aimed')
+    click(page, panel.locator('.q-slider').first.bounding_box())
+    wait_until(lambda: '59 %' in panel.inner_text(), 'the power is set by the mouse')
+    page.keyboard.press('ArrowUp')
+    wait_until(lambda: '60 %' in panel.inner_text(), 'the power is set by a key')
+    assert name in panel.inner_text() and '0.4° right' in panel.inner_text()
+    assert page.errors == []
+
+
 def test_a_page_without_its_server_says_so(open_page, start):
     process, url = served(start, 'cli.view_play')
     page = open_page(url, ready='window.golf')

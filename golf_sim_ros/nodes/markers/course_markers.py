@@ -80,6 +80,7 @@ def ground_marker(number: int, material: Material, corners: Iterable[Corner]) ->
     """
     made = marker('ground', number, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), material.color)
     places = np.array([tuple(corner) for corner in corners], float).reshape(-1, 3, 3)
+    places = banded(places, material)
     made.points = points(places.reshape(-1, 3))
     shades = [rgb(color) for color in lit(places, material)]
     made.colors = [shade for shade in shades for _ in range(3)]
@@ -154,10 +155,7 @@ def lifted(place: Corner, normal: Corner, pieces: Painted) -> Painted:
         return place[2] - (normal[0] * (x - place[0]) + normal[1] * (y - place[1])) / normal[2]
 
     return [
-        (
-            material,
-            [[(x, y, height(x, y)) for x, y in corners] for corners in banded(found, material)],
-        )
+        (material, [[(x, y, height(x, y)) for x, y in corners] for corners in found])
         for material, found in pieces
     ]
 
@@ -242,8 +240,8 @@ def water(course: Course) -> list[Marker]:
     """
     if not course.water:
         return []
+    # Its own colour is opaque: RViz multiplies it with those of the points.
     made = marker('water', 0, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), BLUE)
-    made.color.a = CLEAR
     made.points = points(
         (x, y, pond.level)
         for pond in course.water

@@ -16,13 +16,14 @@
 
 from collections import deque
 from collections.abc import Sequence
-from math import hypot
+from math import hypot, inf
 
 from std_msgs.msg import Header
 from visualization_msgs.msg import Marker, MarkerArray
 
 from .course_markers import marker, points, put
 from ...physics import Course, ground_height, Result, World
+from ...physics.geometry.solid import FLAGSTICK_HEIGHT
 
 TRAIL = 300  # points at most of a trail
 TRAILS = 3000  # points at most of all trails,
@@ -31,9 +32,8 @@ CONTACTS = 20  # last contacts that are shown
 TRAIL_WIDTH = 0.2  # m: less is no pixel from afar
 HALO = 0.6  # m across, around a ball that is no pixel either
 SHEER = 0.3  # how much of the halo is seen
-TEXT_SIZE = 2.0  # m
-OVER_PIN = 4.0  # m over the hole, where the distance stands
-OVER_BALL = 2.0  # m over where a shot ended, where its result stands
+TEXT_SHARE = 1 / 60  # height of texts, of the way from the tee to the hole,
+LEAST_TEXT, MOST_TEXT = 0.15, 5.0  # m, within these
 NEAR = 20.0  # m below which the distance is told to a decimetre
 CONTACT_SIZE = 0.15  # m
 ARROW = (0.15, 0.4, 0.5)  # m: diameters of shaft and head, length of the head
@@ -84,6 +84,8 @@ class Scene:
         self.place = x, y, found[0]
         self.ended: Result | None = None  # the last shot that did
         self.pin = hole_of(world.course)
+        self.letter = letter_height(world.course)
+        self.flag = FLAGSTICK_HEIGHT if world.course.flagstick else 0.0
 
     def markers(self, head: Header, world: World, wind: Sequence[float]) -> MarkerArray:
         """Make the MarkerArray of now.
@@ -121,20 +123,21 @@ class Scene:
     def distance(self, world: World) -> Marker:
         """Text over the pin: how far the ball in play is from it."""
         if self.pin is None:
-            return hidden(text(0, '', self.place), True)
+            return hidden(text(0, '', self.place, self.letter), True)
         x, y, z = self.pin
         ball = world[world.names[0]].position
         way = hypot(ball[0] - x, ball[1] - y)
-        return text(0, f'{way:.{int(way < NEAR)}f} m', (x, y, z + OVER_PIN))
+        above = (x, y, z + self.flag + self.letter)
+        return text(0, f'{way:.{int(way < NEAR)}f} m', above, self.letter)
 
     def result(self) -> Marker:
         """Text over where the last shot ended: how far it went, and on what it lies."""
         if self.ended is None:
-            return hidden(text(1, '', self.place), True)
+            return hidden(text(1, '', self.place, self.letter), True)
         x, y, z = self.ended.position
         end = self.ended.lie if self.ended.status == 'at_rest' else self.ended.status
         told = f'{self.ended.total:.1f} m, {end.replace("_", " ")}'
-        return text(1, told, (x, y, z + OVER_BALL))
+        return text(1, told, (x, y, z + HALO + self.letter), self.letter)
 
 
 def hole_of(course: Course) -> tuple[float, float, float] | None:
@@ -143,9 +146,16 @@ def hole_of(course: Course) -> tuple[float, float, float] | None:
     return (*course.hole, found[0]) if course.hole and found else None
 
 
-def text(number: int, words: str, place: Sequence[float]) -> Marker:
-    """Words at a place, facing who looks."""
-    made = marker('text', number, Marker.TEXT_VIEW_FACING, (0.0, 0.0, TEXT_SIZE), BALL)
+def letter_height(course: Course) -> float:
+    """Height of texts [m]: as much of the view of a long hole as of a short one's."""
+    x, y = course.tee
+    way = hypot(course.hole[0] - x, course.hole[1] - y) if course.hole else inf
+    return min(max(LEAST_TEXT, TEXT_SHARE * way), MOST_TEXT)
+
+
+def text(number: int, words: str, place: Sequence[float], height: float) -> Marker:
+    """Words at a place, facing who looks, `height` [m] high."""
+    made = marker('text', number, Marker.TEXT_VIEW_FACING, (0.0, 0.0, height), BALL)
     made.text = words
     put(made, *place)
     return made

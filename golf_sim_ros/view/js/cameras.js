@@ -76,11 +76,13 @@ export class Cameras {
   }
 
   behind(ball, land, way) {
-    const back = way < 1.5 ? 1.6 : way < 14 ? 2.6 : way < 40 ? 4.5 : 7.5, d = this.heading, { x, y, z } = ball.place;
-    const place = new THREE.Vector3(x - back * d.x, y - back * d.y, z + 0.33 * back + (ball.moving ? 0.8 : 0));
+    const [back, up] = way < 1.5 ? [1.6, 0.53] : way < 14 ? [2.6, 0.86] : way < 40 ? [4.5, 1.4] : [7.5, 2.3];
+    const d = this.heading, { x, y, z } = ball.place;
+    const place = new THREE.Vector3(x - back * d.x, y - back * d.y, z + up + (ball.moving ? 0.8 : 0));
     const ahead = Math.min(Math.max(way, 1.2), 42);
     const target = new THREE.Vector3(x + ahead * d.x, y + ahead * d.y, 0);
-    target.z = ball.moving ? z : land.height(target.x, target.y) + 0.03 * ahead;
+    // a ball at rest is seen over the cards and the timeline
+    target.z = ball.moving ? z : land.height(target.x, target.y);
     return { place, target };
   }
 
