@@ -303,17 +303,29 @@ def next_part(kind, part, low, high):
     return surface_protocol.next_part(kind, part, low, high)
 
 
+@entry
+def parts_within(kind, low, high, most):
+    """First and last part of a kind in a box, and their count; Python can call it."""
+    return surface_protocol.parts_within(kind, low, high, most)
+
+
+@pytest.mark.parametrize('size', [1.0, 0.03])
 @pytest.mark.parametrize('count', [1, 2, 4, 5, 9, 300])
-def test_the_hierarchy_finds_what_brute_force_finds(count):
+def test_the_hierarchy_finds_what_brute_force_finds(count, size):
     rng = np.random.default_rng(count)
     shapes = [
-        Mesh(rng.uniform(-1, 1, (3 * n, 3)) + n, np.arange(3 * n).reshape(-1, 3))
+        Mesh(
+            (n + rng.uniform(-1, 1, (n, 1, 3)) + rng.uniform(-size, size, (n, 3, 3))).reshape(
+                -1, 3
+            ),
+            np.arange(3 * n).reshape(-1, 3),
+        )
         for n in (count, 1, count)
     ]
     kind = meshes(shapes, {Material(): 0})
     corners = kind.triangles['corners']
     for _ in range(40):
-        middle, half = count + rng.uniform(-1, 1, 3), rng.uniform(0, 0.5)
+        middle, half = count + rng.uniform(-1, 1, 3), rng.choice([0.05, 0.5]) * rng.uniform()
         low, high = tuple(middle - half), tuple(middle + half)
         met = ((corners.min(1) <= high) & (corners.max(1) >= low)).all(1)
         found, part = [], next_part(kind, 0, low, high)
@@ -324,6 +336,10 @@ def test_the_hierarchy_finds_what_brute_force_finds(count):
         start = int(rng.integers(len(corners)))
         later = [k for k in found if k >= start]
         assert next_part(kind, start, low, high) == (later[0] if later else len(corners))
+        for most in (1, 3, len(corners) + 1):
+            first, last, many = parts_within(kind, low, high, most)
+            assert many == min(most, len(found))
+            assert many == 0 or (first, last) == (found[0], found[many - 1])
 
 
 @pytest.mark.parametrize(

@@ -361,28 +361,20 @@ def first_ground_contact(
         end = min(begin + stretch, until)
         low, high = swept_box(ball, begin, end, radius)
         ball['segments_spent'] += LOOK
-        if is_long(low, high, SHORT_BOX * radius) and has_many_parts(ground, low, high):
-            stretch = 0.5 * (end - begin)
-            continue
-        best, who, hit = first_in_box(ground, ball, radius, (begin, end), (low, high), on)
+        first, last, count = surfaces.parts_within(ground, low, high, MANY_PARTS)
+        if count == MANY_PARTS:
+            if is_long(low, high, SHORT_BOX * radius):
+                stretch = 0.5 * (end - begin)
+                continue
+            last = surfaces.parts(ground)
+        best, who, hit = first_in_box(
+            ground, ball, radius, (begin, end), (low, high), (first, last), on
+        )
         if hit or best < end:
             return best, who, hit
         begin = end
         stretch *= 2.0
     return until, NO_PART, False
-
-
-@kernel
-def has_many_parts(ground: Ground, low: Vector, high: Vector) -> bool:
-    """Whether MANY_PARTS or more overlap the box from `low` to `high`."""
-    if surfaces.parts(ground) < MANY_PARTS:
-        return False
-    part = NO_PART
-    for _ in range(MANY_PARTS):
-        part = surfaces.next_part(ground, part + 1, low, high)
-        if part < 0:
-            return False
-    return True
 
 
 @kernel
@@ -392,18 +384,20 @@ def first_in_box(
     radius: float,
     stretch: tuple[float, float],
     box: Box,
+    parts: tuple[int, int],
     on: int,
 ) -> tuple[float, int, bool]:
     """`first_ground_contact` over a `stretch` of time, with parts that overlap the `box`.
 
-    The stretch is its begin and end. Writes segments_spent.
+    The stretch is its begin and end; `parts` are the first of those, and one after which there is
+    none. Writes segments_spent.
     """
     begin, end = stretch
     low, high = box
+    part, last = parts
     best = end
     who = NO_PART
     hit = False
-    part = surfaces.next_part(ground, 0, low, high)
     while part >= 0:
         ball['segments_spent'] += LOOK
         if not is_ignored(ground, part, ball, radius, best, on):
@@ -423,7 +417,7 @@ def first_in_box(
                 best = time
                 who = part
                 hit = touches
-        part = surfaces.next_part(ground, part + 1, low, high)
+        part = surfaces.part_after(ground, part, last, low, high)
     return best, who, hit
 
 

@@ -226,15 +226,19 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     if surfaces.goes_on(land.ground, ball['support'], ball['support']):
         smooth_surface_segment(model, ball, now)
         return ON_CURVE
-    is_flat = surfaces.flat_under(land.ground, ball['support'], load(ball['position']))
-    if is_flat and not flat_ground_goes_on(land, ball):
+    goes_on = flat_ground_goes_on(land, ball)
+    ends = not goes_on and surfaces.flat_under(
+        land.ground, ball['support'], load(ball['position'])
+    )
+    if ends:
         cross_border(land, ball, now)
         if not moves(ball['phase']) or ball['phase'] == FLIGHT:
             return IN_THE_AIR
     ahead = unit(load(ball['velocity']), ZERO)
     _, normal = surfaces.under(land.ground, ball['support'], load(ball['position']), ahead)
     store(ball['normal'], normal)
-    goes_on = flat_ground_goes_on(land, ball)
+    if ends or ahead == ZERO:  # else it is heading where it was
+        goes_on = flat_ground_goes_on(land, ball)
     ball['on_flat'] = 1 if goes_on else 0
     if goes_on:
         surface = land.ball.radius, normal, ZERO

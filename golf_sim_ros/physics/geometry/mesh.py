@@ -25,22 +25,11 @@ from typing import Mapping, NamedTuple, Sequence
 import numpy as np
 
 from . import surface_protocol
-from .bvh import BVH_NODE, hierarchy
+from .bvh import BVH_NODE, hierarchy, leaf_grid, LeafGrid, leaves_between
 from .plane_patch import FLUSH, meets, PLANE_ROUNDING, SAME_HEIGHT
 from ..jit import kernel
 from ..kernel_types import StructRecord, Vector
-from ..mechanics.vector import (
-    add_scaled,
-    cross,
-    dot,
-    length,
-    load,
-    scale,
-    sub,
-    tangential,
-    unit,
-    ZERO,
-)
+from ..mechanics.vector import add_scaled, dot, length, load, scale, sub, tangential, unit, ZERO
 from ..properties.material import Material
 
 # m: on a border, face, side or corner is decided this far ahead of a moving ball.
@@ -52,6 +41,7 @@ TRIANGLE = np.dtype(
     [
         ('corners', 'f8', (3, 3)),
         ('normal', 'f8', 3),
+        ('inward', 'f8', (3, 3)),  # of each side: in the plane, as long as the side
         ('material', 'i8'),
         ('one_sided', 'i8'),
         ('leaf', 'i8'),
@@ -73,10 +63,11 @@ class Mesh(NamedTuple):
 
 
 class Meshes(NamedTuple):
-    """All meshes of a course: triangles, and the nodes of one BVH after the other."""
+    """All meshes of a course: triangles, the nodes of one BVH after the other, their leaves."""
 
     triangles: np.ndarray
     nodes: np.ndarray
+    grid: LeafGrid
 
 
 def meshes(shapes: Sequence[Mesh], material_number: Mapping[Material, int]) -> Meshes:
@@ -102,7 +93,8 @@ def meshes(shapes: Sequence[Mesh], material_number: Mapping[Material, int]) -> M
         triangles.append(rows)
         nodes.append(tree)
         before, above = before + len(rows), above + len(tree)
-    return Meshes(np.concatenate(triangles), np.concatenate(nodes))
+    tree = np.concatenate(nodes)
+    return Meshes(np.concatenate(triangles), tree, leaf_grid(tree))
 
 
 def checked(shape: Mesh) -> np.ndarray:
@@ -140,6 +132,8 @@ def _rows(corners: np.ndarray, material: int, one_sided: bool) -> np.ndarray:
     rows = np.zeros(len(corners), TRIANGLE)
     rows['corners'] = corners
     rows['normal'] = normals / np.linalg.norm(normals, axis=1)[:, np.newaxis]
+    sides = corners[:, (1, 2, 0)] - corners
+    rows['inward'] = np.cross(rows['normal'][:, np.newaxis], sides)
     rows['material'], rows['one_sided'] = material, one_sided
     return rows
 
@@ -155,15 +149,18 @@ def _next_part(kind: Meshes, part: int, low: Vector, high: Vector) -> int:
     # tree.
     triangles = len(kind.triangles)
     node = 0
+    end = len(kind.nodes) - 1
     if 0 < part < triangles:
-        node = kind.triangles[part]['leaf']
-        last = kind.nodes[node]['last']
+        leaf = kind.triangles[part]['leaf']
+        last = kind.nodes[leaf]['last']
         while part < last:
             if is_near(kind.triangles[part], low, high):
                 return part
             part += 1
-        node += 1
-    while part < triangles and node < len(kind.nodes):
+        node = leaf + 1
+    elif part == 0:
+        node, end = leaves_between(kind.grid, low, high)
+    while part < triangles and node <= end:
         if not meets(kind.nodes[node], low, high):
             node = kind.nodes[node]['skip']
             continue
@@ -172,6 +169,24 @@ def _next_part(kind: Meshes, part: int, low: Vector, high: Vector) -> int:
                 return k
         node += 1
     return triangles
+
+
+@surface_protocol.parts_within.register(Meshes)
+def _parts_within(kind: Meshes, low: Vector, high: Vector, most: int) -> tuple[int, int, int]:
+    first = last = -1
+    count = 0
+    node, end = leaves_between(kind.grid, low, high)
+    while node <= end and count < most:
+        if not meets(kind.nodes[node], low, high):
+            node = kind.nodes[node]['skip']
+            continue
+        for k in range(kind.nodes[node]['first'], kind.nodes[node]['last']):
+            if count < most and is_near(kind.triangles[k], low, high):
+                first = k if count == 0 else first
+                last = k
+                count += 1
+        node += 1
+    return first, last, count
 
 
 @kernel
@@ -192,16 +207,15 @@ def offset_from(triangle: StructRecord, point: Vector) -> tuple[Vector, int]:
 
     TRIANGLE_FACE, the number of a side, or CORNER.
     """
-    normal = load(triangle['normal'])
     where = TRIANGLE_FACE
     best = ZERO
     least = inf
     for i in range(3):
         start = load(triangle['corners'][i])
-        side = sub(load(triangle['corners'][(i + 1) % 3]), start)
         d = sub(point, start)
-        if dot(cross(normal, side), d) >= 0.0:  # the foot is on the inner side of this side
+        if dot(load(triangle['inward'][i]), d) >= 0.0:  # the foot is on the inner side
             continue
+        side = sub(load(triangle['corners'][(i + 1) % 3]), start)
         t = min(max(dot(d, side) / dot(side, side), 0.0), 1.0)
         offset = add_scaled(d, -t, side)
         size = dot(offset, offset)
@@ -210,7 +224,7 @@ def offset_from(triangle: StructRecord, point: Vector) -> tuple[Vector, int]:
             best = offset
             where = i if 0.0 < t < 1.0 else CORNER
     if where == TRIANGLE_FACE:
-        best = scale(height_over(triangle, point), normal)
+        best = scale(height_over(triangle, point), load(triangle['normal']))
     return best, where
 
 
@@ -296,9 +310,7 @@ def _limits(kind: Meshes, part: int) -> int:
 @surface_protocol.limit.register(Meshes)
 def _limit(kind: Meshes, part: int, i: int) -> tuple[Vector, Vector]:
     triangle = kind.triangles[part]
-    start = load(triangle['corners'][i])
-    side = sub(load(triangle['corners'][(i + 1) % 3]), start)
-    return start, unit(cross(load(triangle['normal']), side), ZERO)
+    return load(triangle['corners'][i]), unit(load(triangle['inward'][i]), ZERO)
 
 
 @surface_protocol.material_of.register(Meshes)

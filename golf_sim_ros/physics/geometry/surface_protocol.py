@@ -43,6 +43,25 @@ def next_part(kind: KindRecord, part: int, low: Vector, high: Vector) -> int:
 
 
 @generic
+def parts_within(kind: KindRecord, low: Vector, high: Vector, most: int) -> tuple[int, int, int]:
+    """First and last of the parts that `next_part` would find in a box, and their count.
+
+    No more than `most` are looked for: the last is that of as many.
+    """
+    first = next_part(kind, 0, low, high)
+    last = -1
+    part = first
+    count = 0
+    while part < parts(kind):
+        last = part
+        count += 1
+        if count == most:
+            break
+        part = next_part(kind, part + 1, low, high)
+    return first, last, count
+
+
+@generic
 def nearest(kind: KindRecord, part: int, point: Vector) -> tuple[float, Vector]:
     """Signed distance of `point` from `part`, and the unit normal there, towards `point`.
 

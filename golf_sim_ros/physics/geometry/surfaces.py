@@ -33,6 +33,7 @@ from ..mechanics.vector import add_scaled, dot, scale, ZERO
 from ..state.ball import NO_PART
 
 NO_GROUND = -1e300
+ALL_PARTS = 1 << 60  # more than there are
 LOOK_AHEAD = 1e-7  # m: on a border, the support of a ball is decided this far ahead
 RIM_REACH = 0.02  # m: within this of the height of its rim the hole cuts whatever ground is there
 
@@ -142,8 +143,9 @@ support_of = part_of_its_kind(surface_protocol.support_of)
 _smooth_surface = part_of_its_kind(surface_protocol.smooth_surface)
 
 
-# Of `parts`, `next_part` and `top` each has a loop of its own: they ask all kinds, not the one of
-# a part, and put the answers together in three ways, as a sum, the first, the highest.
+# Of `parts`, `next_part`, `parts_within` and `top` each has a loop of its own: they ask all kinds,
+# not the one of a part, and put the answers together in four ways, as a sum, the first, the first
+# and the last, the highest.
 @kernel
 def parts(ground: Ground) -> int:
     """Count the parts of all kinds."""
@@ -166,6 +168,33 @@ def next_part(ground: Ground, part: int, low: Vector, high: Vector) -> int:
                 found = before + k
         before += n
     return found
+
+
+@shared
+def parts_within(ground: Ground, low: Vector, high: Vector, most: int) -> tuple[int, int, int]:
+    """First and last of the parts that `next_part` would find in a box, NO_PART without one.
+
+    And their count. No more than `most` are looked for: the last is that of as many.
+    """
+    first = last = NO_PART
+    count = 0
+    before = 0
+    for kind in literal_unroll(ground.kinds):
+        n = surface_protocol.parts(kind)
+        if n > 0 and count < most:
+            begin, end, found = surface_protocol.parts_within(kind, low, high, most - count)
+            if found > 0:
+                first = before + begin if count == 0 else first
+                last = before + end
+                count += found
+        before += n
+    return first, last, count
+
+
+@kernel
+def part_after(ground: Ground, part: int, last: int, low: Vector, high: Vector) -> int:
+    """Part after `part` of those in a box of which `last` is the last, or NO_PART."""
+    return next_part(ground, part + 1, low, high) if part < last else NO_PART
 
 
 @kernel
@@ -296,10 +325,8 @@ def out_of_bounds(ground: Ground, x: float, y: float) -> float:
 def is_alone(ground: Ground, part: int, point: Vector, radius: float) -> bool:
     """Whether a ball at `point` that touches `part` can touch no other part."""
     low, high = around(point, radius + SAME_HEIGHT)
-    return (
-        next_part(ground, 0, low, high) == part
-        and next_part(ground, part + 1, low, high) == NO_PART
-    )
+    first, _, count = parts_within(ground, low, high, 2)
+    return first == part and count == 1
 
 
 @shared
@@ -314,7 +341,7 @@ def touched(ground: Ground, point: Vector, radius: float, ahead: Vector) -> tupl
     best_normal = (0.0, 0.0, 1.0)
     low, high = around(point, radius + SAME_HEIGHT)
     next_point = add_scaled(point, LOOK_AHEAD, ahead)
-    part = next_part(ground, 0, low, high)
+    part, last, _ = parts_within(ground, low, high, ALL_PARTS)
     while part >= 0:
         distance, normal = nearest(ground, part, point)
         if abs(distance - radius) <= SAME_HEIGHT and touchable(ground, part, next_point):
@@ -325,7 +352,7 @@ def touched(ground: Ground, point: Vector, radius: float, ahead: Vector) -> tupl
                 best = support_of(ground, part)
                 best_flat = flat
                 best_normal = normal
-        part = next_part(ground, part + 1, low, high)
+        part = part_after(ground, part, last, low, high)
     return best, best_normal
 
 

@@ -184,7 +184,7 @@ def collect_ground_contacts(
         material = contact_material(land, ball, ball['support'], normal)
         add_ground_contact(land, ball, i, (ball['support'], normal), material, work)
     low, high = surfaces.around(place, land.ball.radius + SIMULTANEOUS_GAP)
-    part = surfaces.next_part(ground, 0, low, high)
+    part, last, _ = surfaces.parts_within(ground, low, high, surfaces.ALL_PARTS)
     while part >= 0:
         distance, normal = surfaces.nearest(ground, part, place)
         if (
@@ -194,7 +194,7 @@ def collect_ground_contacts(
         ):
             material = contact_material(land, ball, part, normal)
             add_ground_contact(land, ball, i, (part, normal), material, work)
-        part = surfaces.next_part(ground, part + 1, low, high)
+        part = surfaces.part_after(ground, part, last, low, high)
 
 
 @kernel
