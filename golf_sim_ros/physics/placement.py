@@ -118,9 +118,11 @@ class Putting(NamedTuple):
         return id(land.ground), land.ball, hole, site.put_down, self.position, self.ball.tobytes()
 
     def __eq__(self, other: object) -> bool:
+        """Whether the outcome is the same."""
         return isinstance(other, Putting) and self.key == other.key
 
     def __hash__(self) -> int:
+        """Hash of the key."""
         return hash(self.key)
 
 
