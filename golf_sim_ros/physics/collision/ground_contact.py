@@ -72,6 +72,10 @@ MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
 LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner counts as having left it
 NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEAST_HOLLOW = 1e-12  # 1/m: less is none
+
+# Begin and end of a stretch of time, the box that a ball sweeps in it, and of the parts in that
+# box the first, and one after which there is none.
+Swept = tuple[tuple[float, float], Box, tuple[int, int]]
 IN_THE_AIR, ON_FLAT, ON_EDGE, ON_CURVE, WEDGED = range(5)
 # of a gap of zero: what comes next is open, it is clear for a while, or hit
 OPEN, CLEAR, HIT = range(3)
@@ -367,9 +371,8 @@ def first_ground_contact(
                 stretch = 0.5 * (end - begin)
                 continue
             last = surfaces.parts(ground)
-        best, who, hit = first_in_box(
-            ground, ball, radius, (begin, end), (low, high), (first, last), on
-        )
+        swept = (begin, end), (low, high), (first, last)
+        best, who, hit = first_in_box(ground, ball, radius, swept, on)
         if hit or best < end:
             return best, who, hit
         begin = end
@@ -379,22 +382,13 @@ def first_ground_contact(
 
 @kernel
 def first_in_box(
-    ground: Ground,
-    ball: BallRecord,
-    radius: float,
-    stretch: tuple[float, float],
-    box: Box,
-    parts: tuple[int, int],
-    on: int,
+    ground: Ground, ball: BallRecord, radius: float, swept: Swept, on: int
 ) -> tuple[float, int, bool]:
-    """`first_ground_contact` over a `stretch` of time, with parts that overlap the `box`.
+    """`first_ground_contact` with the parts that overlap the box `swept` over a stretch of time.
 
-    The stretch is its begin and end; `parts` are the first of those, and one after which there is
-    none. Writes segments_spent.
+    Writes segments_spent.
     """
-    begin, end = stretch
-    low, high = box
-    part, last = parts
+    (begin, end), (low, high), (part, last) = swept
     best = end
     who = NO_PART
     hit = False
