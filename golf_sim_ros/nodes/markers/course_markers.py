@@ -55,16 +55,15 @@ CLEAR = 0.6  # how much of it is seen
 
 def course_markers(course: Course, frame_id: str) -> MarkerArray:
     """Make the MarkerArray of `course`, stamp 0 so that viewers use their newest transform."""
-    by_material: dict[Material, list[Corner]] = {}
+    by_material: dict[Material, list[np.ndarray]] = {}
     for number, shape in enumerate(course.ground):
         for material, pieces in surface(shape, course, number):
-            by_material.setdefault(material, []).extend(
-                corner for piece in pieces for corner in piece
-            )
+            corners = np.asarray(pieces, float).reshape(-1, 3, 3)
+            by_material.setdefault(material, []).append(corners)
     lists = [
-        ground_marker(number, material, corners)
+        ground_marker(number, material, np.concatenate(corners))
         for number, (material, corners) in enumerate(by_material.items())
-        if corners
+        if any(map(len, corners))
     ]
     markers = [*lists, *tee(course), *hole(course), *obstacles(course), *water(course)]
     for marker in markers:
@@ -72,16 +71,15 @@ def course_markers(course: Course, frame_id: str) -> MarkerArray:
     return MarkerArray(markers=markers)
 
 
-def ground_marker(number: int, material: Material, corners: Iterable[Corner]) -> Marker:
-    """Make the TRIANGLE_LIST of all that is of `material`.
+def ground_marker(number: int, material: Material, corners: np.ndarray) -> Marker:
+    """Make the TRIANGLE_LIST of all that is of `material`: triangles (n, 3, 3).
 
     Viewers light a list without colours of its own, half of it ambient, and show it nearly black:
     each point has a colour, in which the sun is baked.
     """
     made = marker('ground', number, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), material.color)
-    places = np.array([tuple(corner) for corner in corners], float).reshape(-1, 3, 3)
-    places = banded(places, material)
-    made.points = points(places.reshape(-1, 3))
+    places = banded(corners, material)
+    made.points = points(places.reshape(-1, 3).tolist())
     shades = [rgb(color) for color in lit(places, material)]
     made.colors = [shade for shade in shades for _ in range(3)]
     return made
