@@ -162,10 +162,15 @@ OF_SIM = {
     'effects': ['gravity', 'drag'],
     'balls': ['one', 'two'],
     'frame_id': 'map',
+    'parent_frame': 'earth',
+    'publish_tf': False,
     'publish_clock': True,
     'engine': 'python',
+    'turbulence': 0.2,
+    'turbulence_seed': 3,
     'use_sim_time': False,
 }
+assert OF_SIM.keys() == SIM.keys(), 'a parameter is missing here'
 OF_WIND = {
     'speed': 8.0,
     'speed_spread': 1.0,
