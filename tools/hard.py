@@ -137,7 +137,7 @@ def played(scene, accuracy):
     """Write what the table says of a scene's figures at the rates: the worst one."""
     found = [scene.figure(accuracy, rate) for rate in RATES]
     worst = max(found, key=lambda figure: max(scene.least - figure, figure - scene.most))
-    return f'{worst:.4g}' + ('' if scene.least <= worst <= scene.most else ' *fails*')
+    return f'{worst:.4g}' + ('' if scene.holds(worst, accuracy) else ' *fails*')
 
 
 def scenes(count):
@@ -154,7 +154,9 @@ def scenes(count):
         for scene in some:
             cells = [played(scene, accuracy) for accuracy in ACCURACY]
             lines.append(
-                f'| {scene.name} | {scene.least:g} to {scene.most:g} | ' + ' | '.join(cells) + ' |'
+                f'| {scene.name} | {scene.least:g} to {scene.most:g}'
+                + (f' (`sketch`: {scene.rough:g})' if scene.rough else '')
+                + f' | {" | ".join(cells)} |'
             )
             print(lines[-1], flush=True)
     return lines

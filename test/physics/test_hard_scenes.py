@@ -23,4 +23,4 @@ ALL = [scene for scenes in SCENES.values() for scene in scenes]
 @pytest.mark.parametrize('accuracy', ['standard', 'reference'])
 @pytest.mark.parametrize('scene', ALL, ids=[f'{k} {scene.name}' for k, scene in enumerate(ALL)])
 def test_a_hard_scene_ends_as_expected(scene, accuracy):
-    assert scene.least <= scene.figure(accuracy, 50) <= scene.most
+    assert scene.holds(scene.figure(accuracy, 50), accuracy)
