@@ -129,8 +129,8 @@ class Putting(NamedTuple):
 @lru_cache(maxsize=8)
 def put_down_once(putting: Putting) -> BallRecord:
     """Record of a ball that is put down; kept, for every new world puts its balls on the tee."""
-    site, ball, position = putting
-    put_ball_down(site, ball := ball.copy(), position)
+    ball = putting.ball.copy()
+    put_ball_down(putting.site, ball, putting.position)
     return ball
 
 
