@@ -20,21 +20,15 @@ A time is a slope: that of many shots less that of few, so that a call's own cos
 from statistics import median
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.physics import ACCURACY, Heightmap, simulate_many
-from golf_sim_ros.study.scenes import club_shot, hills, level, lofted
-import numpy as np
+from golf_sim_ros.physics import ACCURACY, simulate_many
+from golf_sim_ros.study.grounds import spread, STRIKES
+from golf_sim_ros.study.scenes import as_heights, hills, level
 from shots import ground
 from timing import clocked, Row
 
 COURSES = 'golf_without_friends', 'links', 'putting_green'
 FEW, MANY = 200, 2200  # shots
 ROUNDS = 5
-SPREAD = 0.05  # of speed, and of direction in radians
-STRIKES = {
-    'drive': club_shot('driver'),
-    'chip': lofted(12.0, 30.0, 0.0),
-    'putt': lofted(4.0, 0.0, 0.0),
-}
 WANTED = {  # times the plane's, at `standard`
     ('drive', 'golf_without_friends'): 2.0,
     ('drive', 'links'): 5.0,
@@ -85,15 +79,6 @@ def rows(quick):
     yield Row('a call of one drive on links', 1e3 * median(calls), 'ms', most=1.0)
 
 
-def as_heights(course):
-    """`course`, a mesh over a square grid, as a height map."""
-    (mesh,) = course.ground
-    across = round(len(mesh.vertices) ** 0.5)
-    x, y, z = mesh.vertices.T.reshape(3, across, across)
-    heights = Heightmap(z, (x[0, 0], y[0, 0]), x[0, 1] - x[0, 0], mesh.material)
-    return course._replace(ground=(heights,))
-
-
 def presets(name, course, strike, most, **how):
     """`Row` of each preset's time over that of `standard`."""
     times = dict(zip(ACCURACY, slopes([volley(course, strike, a, **how) for a in ACCURACY])))
@@ -109,14 +94,7 @@ def presets(name, course, strike, most, **how):
 
 def volley(course, strike, accuracy='standard', **how):
     """Return a function that plays so many strikes, each a little different."""
-    random = np.random.default_rng(1)
-    shot = STRIKES[strike]
-    speeds, angles = SPREAD * random.standard_normal((2, MANY))
-    ahead = np.transpose([np.cos(angles), np.sin(angles), 0.0 * angles])
-    across = np.transpose([-np.sin(angles), np.cos(angles), 0.0 * angles])
-    velocities = (1.0 + speeds[:, None]) * shot.velocity[0] * ahead
-    velocities[:, 2] = (1.0 + speeds) * shot.velocity[2]
-    spins = shot.spin[1] * across
+    velocities, spins = spread(strike, MANY)
 
     def play(count):
         simulate_many(course, velocities[:count], spins[:count], accuracy=accuracy, **how)

@@ -35,6 +35,11 @@ SCIPY = {'RK45': (1e-3, 1e-4, 1e-6, 1e-8, 1e-10), 'DOP853': (1e-3, 1e-6, 1e-8, 1
 TRUTH = Preset(
     METHODS['dormand_prince'].record(1e-13), ACCURACY['reference'].limits._replace(settle=1e-5)
 )
+# Limits of Dormand-Prince's dial. So they go through those of the presets, as powers of the
+# tolerance [m]; bounces from MOST_SETTLE on are always followed one by one.
+PATH = 10.0**-3.5, 0.65
+SETTLE = 10.0**0.24, 0.324
+MOST_SETTLE = 0.1  # m/s
 NOT_PLAYED = ((np.nan, np.nan, np.nan),)
 
 
@@ -76,6 +81,18 @@ def methods(scene: Scene | Game) -> tuple[Method, ...]:
 def made(name: str, setting: float) -> Preset:
     """`Preset` of an integrator; everything else is as exact as in the preset `reference`."""
     return Preset(METHODS[name].record(setting), ACCURACY['reference'].limits)
+
+
+def dial(tolerance: float) -> Preset:
+    """`Preset` of Dormand-Prince with a `tolerance` [m], and of limits that go with it.
+
+    So contacts, too, are the more exact the further it is turned, as from preset to preset.
+    """
+    (path, of_path), (settle, of_settle) = PATH, SETTLE
+    limits = ACCURACY['reference'].limits._replace(
+        settle=min(settle * tolerance**of_settle, MOST_SETTLE), path=path * tolerance**of_path
+    )
+    return Preset(METHODS['dormand_prince'].record(tolerance), limits)
 
 
 def by_preset(preset: Preset, scene: Scene | Game) -> Stage:

@@ -24,7 +24,7 @@ import numpy as np
 
 from ..course import load_course
 from ..course.material_file import materials, shipped
-from ..physics import Ball, Course, Material, Mesh, Plane, Restitution, Shot
+from ..physics import Ball, Course, Heightmap, Material, Mesh, Plane, Restitution, Shot
 from ..shot_input.clubs import CLUBS
 from ..shot_input.launch_monitor import velocity_and_spin
 from ..wind.gusts import Gusts, GustSettings
@@ -134,12 +134,12 @@ def hard(rolling_resistance: float = 0.02) -> Material:
     return Material('hard', Restitution(0.8), 0.0, 0.5, 0.3, rolling_resistance, 0.003)
 
 
-def hills(triangles: int) -> Course:
+def hills(triangles: int, width: float = 120.0) -> Course:
     """Make a `Course` of a mesh of about as many `triangles`.
 
-    It is a bowl 120 m wide with gentle hills in it.
+    It is a bowl with gentle hills in it, `width` [m] wide, and of the same shape at every width.
     """
-    across = round(sqrt(triangles / 2)) + 1
+    across, scale = round(sqrt(triangles / 2)) + 1, width / 120.0
     x, y = map(np.ravel, np.meshgrid(*2 * [np.linspace(-60.0, 60.0, across)]))
     z = 0.0005 * (x * x + y * y) - 0.15 * np.cos(0.4 * x) * np.cos(0.5 * y)
     i = np.add.outer(across * np.arange(across - 1), np.arange(across - 1)).ravel()
@@ -147,7 +147,23 @@ def hills(triangles: int) -> Course:
         np.transpose([i, i + 1, i + across + 1]),
         np.transpose([i, i + across + 1, i + across]),
     ]
-    return Course((Mesh(np.transpose([x, y, z]), np.concatenate(faces), hard(HEAVY_GOING)),))
+    vertices = scale * np.transpose([x, y, z])
+    return Course((Mesh(vertices, np.concatenate(faces), hard(HEAVY_GOING)),))
+
+
+def as_heights(course: Course) -> Course:
+    """`course`, a mesh over a square grid, such as `hills` makes, as a height map."""
+    (mesh,) = course.ground
+    across = round(len(mesh.vertices) ** 0.5)
+    x, y, z = mesh.vertices.T.reshape(3, across, across)
+    heights = Heightmap(z, (x[0, 0], y[0, 0]), x[0, 1] - x[0, 0], mesh.material)
+    return course._replace(ground=(heights,))
+
+
+def of_material(course: Course, material: Material) -> Course:
+    """`course` with all its ground of one `material`."""
+    ground = tuple(shape._replace(material=material) for shape in course.ground)
+    return course._replace(ground=ground)
 
 
 def rack(balls: int) -> Game:
