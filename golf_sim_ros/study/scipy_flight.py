@@ -15,51 +15,91 @@
 """Flight by scipy's solve_ivp, as one would write it without this package: a yardstick."""
 
 from collections.abc import Callable, Sequence
-from math import log, sqrt
+from math import inf, log, sqrt
 from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from .scenes import Scene as StudyScene
+from ..physics import ACCURACY
 from ..physics.effects import choose, Scene
 from ..physics.effects.drag import drag_coefficient
 from ..physics.effects.magnus import lift_per_ratio
+from ..physics.mechanics.vector import UP
+from ..physics.response.ground_impact import bounced
+from ..physics.scene.kernel_model import build_model
 from ..physics.simulation import checked_gusts
 
 LONGEST = 60.0  # s
 
 
 def fly(scene: StudyScene, method: str, rtol: float) -> np.ndarray:
-    """State (x, y, z, velocity, spin) where a shot first touches level ground at height 0.
+    """State (x, y, z, velocity, spin) where a shot first touches level ground at height 0."""
+    return flyer(scene, method, rtol)(1)[0]
 
-    The right-hand side is in scalar arithmetic, which is several times as fast as small arrays.
+
+def flyer(scene: StudyScene, method: str, rtol: float) -> Callable[[int], list[np.ndarray]]:
+    """Make the function that plays a shot onto level ground at height 0, hop by hop.
+
+    ``play(count)`` gives the states (x, y, z, velocity, spin) in which the ball comes down at its
+    first `count` touches. Between them scipy starts anew, from where the ball leaves the ground by
+    this package's law of impact, in plain Python. The right-hand side is in scalar arithmetic,
+    which is several times as fast as small arrays.
     """
-    records = choose(scene.effects, Scene(scene.course)).on
-    radius = scene.course.ball.radius
+    chosen = choose(scene.effects, Scene(scene.course))
+    land = build_model(scene.course, chosen.records, ACCURACY['reference']).land
+    radius, g = scene.course.ball.radius, chosen.on['gravity'].g
     gusts = checked_gusts(scene.wind)
+    parts = [
+        (begin, end, rates(chosen.on, wind, radius))
+        for (begin, *wind), end in zip(gusts, [*gusts[1:, 0], LONGEST])
+    ]
 
     def height(time: float, state: Sequence[float]) -> float:
         return state[2] - radius
 
     vars(height).update(terminal=True, direction=-1)  # to end there, on the way down
 
-    state = [0.0, 0.0, radius, *scene.shot.velocity, *scene.shot.spin]
-    ends = [*gusts[1:, 0], LONGEST]
-    for (begin, *wind), end in zip(gusts, ends):
-        part = solve_ivp(
-            rates(records, wind, radius),
-            (begin, end),
-            state,
-            method,
-            rtol=rtol,
-            atol=rtol,
-            events=height,
-        )
-        if len(part.t_events[0]):
-            return part.y_events[0][-1]
-        state = part.y[:, -1]
-    raise ValueError(f'{scene.name}: still in the air after {LONGEST:g} s')
+    def down(time: float, state: Sequence[float], rising: float) -> tuple[float, np.ndarray]:
+        """Time and state at the next touch; a first step of at most `rising` [s]."""
+        for begin, end, right_hand_side in parts:
+            if end <= time:
+                continue
+            first = None if rising == inf else min(rising, end - time)
+            part = solve_ivp(
+                right_hand_side,
+                (time, end),
+                state,
+                method,
+                rtol=rtol,
+                atol=rtol,
+                events=height,
+                first_step=first,
+            )
+            if len(part.t_events[0]):
+                return part.t_events[0][-1], part.y_events[0][-1]
+            time, state, rising = end, part.y[:, -1], inf
+        raise ValueError(f'{scene.name}: still in the air after {LONGEST:g} s')
+
+    def play(count: int) -> list[np.ndarray]:
+        time, rising = 0.0, inf
+        state: Sequence[float] = [0.0, 0.0, radius, *scene.shot.velocity, *scene.shot.spin]
+        touches: list[np.ndarray] = []
+        while len(touches) < count:
+            if touches:
+                x, y, _, *motion = touches[-1].tolist()
+                velocity, spin = bounced(
+                    land, (tuple(motion[:3]), tuple(motion[3:])), UP, land.materials[0]
+                )
+                # Up to the top of the hop: a first step over all of it would see no way down.
+                rising = velocity[2] / g
+                state = [x, y, radius, *velocity, *spin]
+            time, touch = down(time, state, rising)
+            touches.append(touch)
+        return touches
+
+    return play
 
 
 def rates(
