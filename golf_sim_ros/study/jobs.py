@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import lru_cache, partial
 from typing import Any
 
-from . import effects, promises, sizes, ticks, wind_fields
+from . import against_scipy, effects, grounds, promises, sizes, ticks, wind_fields
 from .measure import measured, Row, Stage, Truth
 from .methods import Method, methods, TRUTH
 from .scenes import Game, quick_scenes, Scene, scenes
@@ -35,6 +35,9 @@ def jobs(quick: bool) -> list[tuple[str, Callable[[], Any]]]:
         'promises': promises.jobs(fairway),
     }
     if not quick:
+        parts['grounds'] = grounds.jobs(fairway)
+        flown = [one for one in found if isinstance(one, Scene) and one.flies]
+        parts['scipy'] = against_scipy.jobs(flown)
         parts['effects'] = effects.jobs(found)
         ticked = [one for one in found if isinstance(one, Scene) and one.name in TICKED]
         parts['ticks'] = ticks.jobs(ticked)

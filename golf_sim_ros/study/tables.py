@@ -19,7 +19,9 @@ from math import isfinite
 
 import numpy as np
 
+from .against_scipy import OURS, ScipyRow
 from .effects import EffectRow
+from .grounds import GroundRow, PLANE
 from .measure import Row
 from .promises import PromiseRow
 from .sizes import SizeRow
@@ -29,6 +31,7 @@ from ..physics import ACCURACY
 
 LEVELS = (1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8)  # m
 CENTIMETRE = 0.01  # m
+DECADES = tuple(10.0**-i for i in range(10))  # m
 
 
 def seconds_at(rows: Sequence[Row], method: str, level: float) -> float | None:
@@ -42,19 +45,13 @@ def seconds_at(rows: Sequence[Row], method: str, level: float) -> float | None:
 
 def equal_error_table(rows: Sequence[Row]) -> str:
     """Markdown table: time at equal error of each integrator, over that of Dormand-Prince."""
-    lines = [
-        '| scene | error at most | Dormand-Prince | RK4 | Euler | scipy RK45 | scipy DOP853 |',
-        '|---|---|---|---|---|---|---|',
-    ]
+    lines = ['| scene | error at most | Dormand-Prince | RK4 | Euler |', '|---|---|---|---|---|']
     for scene in dict.fromkeys(row.scene for row in rows if isfinite(row.touch_error)):
         own = [row for row in rows if row.scene == scene]
         for level in LEVELS:
             base = seconds_at(own, 'dormand_prince', level)
             if base:
-                others = (
-                    seconds_at(own, m, level)
-                    for m in ('rk4', 'euler', 'scipy RK45', 'scipy DOP853')
-                )
+                others = (seconds_at(own, method, level) for method in ('rk4', 'euler'))
                 cells = ('-' if t is None else f'{t / base:.3g} x' for t in others)
                 lines.append(
                     f'| {scene} | {level:.0e} m | {base * 1e6:.0f} us | '
@@ -130,6 +127,100 @@ def promise_table(rows: Sequence[PromiseRow]) -> str:
             f'| {row.rest_worst:.1e} m | {preset.rest:g} m |'
         )
     return '\n'.join(lines)
+
+
+def ground_table(rows: Sequence[GroundRow]) -> str:
+    """Markdown table: what the presets cost and how far off they are, by kind of ground."""
+    lines = [
+        "| strike | ground | preset | time of a shot | over the plane's "
+        '| first touch: median | 99 % | rest: median | 99 % | a call for one |',
+        '|---|---|---|---|---|---|---|---|---|---|',
+    ]
+    own = {(row.strike, row.ground, row.setting): row for row in rows if row.setting in ACCURACY}
+    for strike, ground in dict.fromkeys((row.strike, row.ground) for row in rows):
+        for preset in ACCURACY:
+            row, plane = own[strike, ground, preset], own[strike, PLANE, preset]
+            errors = (row.touch_median, row.touch_most, row.rest_median, row.rest_most)
+            lines.append(
+                f'| {strike} | {ground} | {preset} | {row.time * 1e6:.1f} us '
+                f'| {row.time / plane.time:.1f} x | '
+                + ' | '.join(f'{e:.1e} m' if isfinite(e) else '-' for e in errors)
+                + f' | {row.call * 1e6:.0f} us |'
+            )
+    return '\n'.join(lines)
+
+
+def beyond_promise(rows: Sequence[GroundRow]) -> str:
+    """Markdown list: where more than a hundredth of shots is further off than a preset promises.
+
+    That is, than it promises for level ground.
+    """
+    lines = [
+        f'- {row.setting}, {row.strike} on {row.ground}: {row.rest_most:.1e} m instead of '
+        f'{ACCURACY[row.setting].rest:g} m, the worst {row.rest_worst:.1e} m.'
+        for row in rows
+        if row.setting in ACCURACY and row.rest_most > ACCURACY[row.setting].rest
+    ]
+    return '\n'.join(lines) or 'There was none in this run.'
+
+
+def left_out(rows: Sequence[GroundRow]) -> int:
+    """Find how many shots of a volley the reference did not bring to an end, at most."""
+    counts = [row.shots for row in rows]
+    return max(counts) - min(counts)
+
+
+def best_at(rows: Sequence[ScipyRow], level: float) -> ScipyRow | None:
+    """Fastest of `rows` that is exact to `level` [m]; None where none is."""
+    return min((row for row in rows if row.error <= level), key=lambda r: r.time, default=None)
+
+
+def duels(
+    rows: Sequence[ScipyRow],
+) -> list[tuple[str, str, float, ScipyRow | None, ScipyRow | None]]:
+    """Scene, end, level [m] and the fastest of this package's rows and of scipy's there."""
+    found = []
+    for scene, end in dict.fromkeys((row.scene, row.end) for row in rows):
+        own = [row for row in rows if (row.scene, row.end) == (scene, end)]
+        ours = [row for row in own if row.method == OURS]
+        theirs = [row for row in own if row.method != OURS]
+        found += [
+            (scene, end, level, best_at(ours, level), best_at(theirs, level)) for level in DECADES
+        ]
+    return found
+
+
+def scipy_table(rows: Sequence[ScipyRow]) -> str:
+    """Markdown table: this package and scipy at equal error, a line a level."""
+    lines = [
+        "| scene | to the | error at most | here | setting | scipy's best | setting | scipy over "
+        'here |',
+        '|---|---|---|---|---|---|---|---|',
+    ]
+    for scene, end, level, mine, other in duels(rows):
+        cells = [scene, end, f'{level:.0e} m']
+        for row in (mine, other):
+            cells += [f'{row.time * 1e6:.4g} us', setting_of(row)] if row else ['-', '-']
+        cells.append(f'{other.time / mine.time:.0f} x' if mine and other else '-')
+        lines.append('| ' + ' | '.join(cells) + ' |')
+    return '\n'.join(lines)
+
+
+def setting_of(row: ScipyRow) -> str:
+    """Return the setting of a row, with the method where it is scipy's."""
+    return row.setting if row.method == OURS else f'{row.method.split()[-1]}, {row.setting}'
+
+
+def least_ratios(rows: Sequence[ScipyRow]) -> str:
+    """Markdown list: scipy's time over this package's, least and most of all levels."""
+    ratios: dict[tuple[str, str], list[float]] = {}
+    for scene, end, _, mine, other in duels(rows):
+        if mine and other:
+            ratios.setdefault((scene, end), []).append(other.time / mine.time)
+    return '\n'.join(
+        f'- {scene}, to the {end}: {min(some):.0f} to {max(some):.0f} times.'
+        for (scene, end), some in ratios.items()
+    )
 
 
 def report_costs(rows: Sequence[Row]) -> str:
