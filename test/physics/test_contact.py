@@ -22,8 +22,11 @@ from driving_range import down, EVERYTHING, GRAVITY, HARD, level, random_shots, 
 from golf_sim_ros.physics import (
     ACCURACY,
     Collision,
+    Course,
+    Heightmap,
     Material,
     Phase,
+    Plane,
     Preset,
     Restitution,
     Result,
@@ -392,6 +395,40 @@ def test_a_roll_follows_its_differential_equation(tilt, resistance, accuracy):
             basis @ (np.array(ball.position) - start), row[:2], atol=2 * limit
         )
         np.testing.assert_allclose(basis @ ball.velocity, row[2:], atol=100 * limit)
+
+
+@pytest.mark.parametrize('ground', ['plane', 'height map'])
+@pytest.mark.parametrize('phase', ['rolls', 'slides'])
+def test_a_ball_is_braked_by_what_it_is_on_wherever_the_border_lies(ground, phase):
+    slow = HARD._replace(name='slow', rolling_resistance=0.3, dynamic_friction=0.3)
+    random = np.random.default_rng(4)
+    heights = Heightmap(np.zeros((21, 21)), (-10.0, -10.0), 1.0, HARD)
+    shape = Plane(material=HARD) if ground == 'plane' else heights
+    speed = 3.0
+    for way, heading in zip(random.uniform(0.1, 0.5, 40), random.uniform(0.0, 2.0 * np.pi, 40)):
+        c, s = cos(heading), sin(heading)
+        beyond = [(c * x - s * y, s * x + c * y) for x, y in box(way, 30.0)]
+        world = World(Course((shape,), zones=((slow, beyond),)), effects=GRAVITY, engine='python')
+        spin = (-s * speed / RADIUS, c * speed / RADIUS, 0.0) if phase == 'rolls' else (0, 0, 0)
+        world.place('ball', (0.0, 0.0, RADIUS), (c * speed, s * speed, 0.0), spin)
+        if phase == 'rolls':
+            world.advance(30.0)
+            left = speed**2 - 2.0 * HARD.rolling_resistance * G * way
+            expected = way + left / (2.0 * slow.rolling_resistance * G)
+        else:
+            first = (speed - sqrt(speed**2 - 2.0 * HARD.dynamic_friction * G * way)) / (
+                HARD.dynamic_friction * G
+            )
+            world.advance(first + 0.01)
+            then = speed - HARD.dynamic_friction * G * first
+            expected = way + 0.01 * then - 0.5 * slow.dynamic_friction * G * 0.01**2
+        found = world['ball'].position
+        assert np.hypot(found[0], found[1]) == pytest.approx(expected, abs=2e-6)
+
+
+def box(near, far):
+    """Corners of a rectangle in plan from x = `near` on."""
+    return (near, -far), (far, -far), (far, far), (near, far)
 
 
 def test_a_rolling_ball_does_not_turn_about_the_normal():

@@ -16,7 +16,7 @@
 
 import csv
 from functools import lru_cache
-from math import atan, log, pi
+from math import atan, log, pi, sqrt
 from pathlib import Path
 
 from driving_range import launched, level
@@ -206,12 +206,41 @@ def test_sand_stops_what_comes_down_steeply_and_not_what_skims(backspin):
 
 
 GRASS = Material('grass', rolling_resistance=0.13, resistance_growth=0.07, dynamic_friction=0.4)
-BRAKE = 0.13 * GRAVITY
+BRAKE, GRIP = 0.13 * GRAVITY, 0.4 * GRAVITY
+# m/s: what slows the spin of a faster ball leaves less grip to resistance; of one that is faster
+# still, friction can't slow it any more
+SPARING, SLIPPING = sqrt((GRIP - BRAKE) / (0.4 * 0.07 * BRAKE)), sqrt(GRIP / (0.4 * 0.07 * BRAKE))
+
+
+def braked(speed, slower, even, growing):
+    """Way in which v' = -(even + growing v^2) slows a ball from one speed to another."""
+    return log((even + growing * speed**2) / (even + growing * slower**2)) / (2.0 * growing)
 
 
 def rolled_out(speed):
-    """Way on level grass of a ball that rolls: v' = -a (1 + b v^2), a closed form."""
-    return log(1.0 + 0.07 * speed * speed) / (2.0 * BRAKE * 0.07)
+    """Way on level grass of a ball that rolls: v' = -a (1 + b v^2), as far as it grips."""
+    if speed > SLIPPING:
+        return slid_out(speed, speed)
+    fast = braked(speed, SPARING, GRIP, 0.6 * 0.07 * BRAKE) if speed > SPARING else 0.0
+    return fast + braked(min(speed, SPARING), 0.0, BRAKE, 0.07 * BRAKE)
+
+
+def slid_out(speed, turning):
+    """Way on level grass of a ball whose surface turns forward at another speed than its own."""
+    forward = 1.0 if turning >= speed else -1.0
+
+    def rates(_, state):
+        drag = 1.4 * BRAKE * 0.07 * state[1] ** 2
+        return state[1], forward * GRIP - drag, -forward * 2.5 * GRIP
+
+    def slip(_, state):
+        return forward * (state[1] - state[2]) + 1e-12
+
+    slip.terminal, slip.direction = True, 1
+    start = 0.0, speed, turning
+    way = solve_ivp(rates, (0.0, 60.0), start, events=slip, rtol=1e-12, atol=1e-12)
+    assert way.status == 1
+    return way.y[0, -1] + rolled_out(way.y[1, -1])
 
 
 def rest_on(course, velocity, spin, accuracy='standard'):
@@ -226,29 +255,33 @@ def rest_on(course, velocity, spin, accuracy='standard'):
 
 
 @pytest.mark.parametrize('accuracy', ACCURACY)
-@pytest.mark.parametrize('speed', [0.5, 3.0, 12.0, 41.0])
+@pytest.mark.parametrize('speed', [0.5, 3.0, 9.0, 10.0, 12.0, 41.0])
 def test_resistance_that_grows_with_speed_is_exact_in_a_straight_line(accuracy, speed):
     course = level(GRASS)
     found = rest_on(course, (speed, 0, 0), (0, speed / course.ball.radius, 0), accuracy)
-    assert abs(found[0] - rolled_out(speed)) < (1e-8 if accuracy == 'reference' else 5e-5)
+    within = {'reference': 1e-6 if speed > SLIPPING else 1e-8, 'standard': 1e-4, 'sketch': 1e-3}
+    assert abs(found[0] - rolled_out(speed)) < within[accuracy]
+
+
+@pytest.mark.parametrize('name', ['fairway', 'firm_fairway', 'first_cut', 'rough', 'sand'])
+def test_a_fast_ball_that_slips_by_next_to_nothing_goes_as_far_as_one_that_rolls(name):
+    course = level(material(name))
+    speeds = np.linspace(0.5, 45.0, 60)
+    spins = np.linspace(0.5, 45.0, 60) / course.ball.radius
+    straight = np.transpose([speeds, 0 * speeds, 0 * speeds])
+    ends = [
+        simulate_many(course, straight, np.transpose([0 * spins, (1 + by) * spins, 0 * spins]))
+        for by in (-1e-5, 0.0, 1e-5)
+    ]
+    # Static friction exceeds dynamic friction: a few balls in the range of GRIP_MARGIN part.
+    assert np.ptp([end['total'] for end in ends], axis=0).max() < 0.03
 
 
 @pytest.mark.parametrize('accuracy', ACCURACY)
 @pytest.mark.parametrize('speed, backspin', [(3.0, 0.0), (12.0, 0.0), (41.0, 100.0)])
 def test_grass_brakes_the_centre_of_a_ball_that_slides(accuracy, speed, backspin):
     course = level(GRASS)
-    radius, friction = course.ball.radius, 0.4 * GRAVITY
-
-    def rates(_, state):
-        return state[1], -friction - 1.4 * BRAKE * 0.07 * state[1] ** 2, 2.5 * friction
-
-    def slip(_, state):
-        return state[1] - state[2]
-
-    slip.terminal = True
-    start = 0.0, speed, -radius * backspin
-    way = solve_ivp(rates, (0.0, 60.0), start, events=slip, rtol=1e-12, atol=1e-12)
-    expected = way.y[0, -1] + rolled_out(way.y[1, -1])
+    expected = slid_out(speed, -course.ball.radius * backspin)
     found = rest_on(course, (speed, 0, 0), (0, -backspin, 0), accuracy)
     within = {'reference': 1e-6, 'standard': 1e-4, 'sketch': 1e-3}  # sketch's paths err by 0.01 mm
     assert abs(found[0] - expected) < within[accuracy]
@@ -261,10 +294,13 @@ def test_grass_on_a_slope_is_the_same_ode(accuracy):
     up = np.array((0.0, -fall, 1.0)) / np.hypot(fall, 1.0)
     across, uphill = np.array((1.0, 0.0, 0.0)), np.cross(up, (1.0, 0.0, 0.0))
     press, pull = GRAVITY * up[2], 5 / 7 * GRAVITY * uphill[2]
+    growth = 0.13 * 0.07 * press
 
     def rates(_, state):
         x, y, u, v = state
-        brake = 0.13 * press * (1.0 / np.hypot(u, v) + 0.07 * np.hypot(u, v))
+        speed = np.hypot(u, v)
+        turning = np.hypot(0.4 * growth * speed * u, 0.4 * (growth * speed * v + pull))
+        brake = min(0.13 * press, max(0.4 * press - turning, 0.0)) / speed + growth * speed
         return u, v, -brake * u, -brake * v - pull
 
     def stops(_, state):
@@ -276,7 +312,9 @@ def test_grass_on_a_slope_is_the_same_ode(accuracy):
     velocity = 8.0 * across + 3.0 * uphill
     found = rest_on(course, velocity, np.cross(up, velocity) / course.ball.radius, accuracy)
     expected = way.y[0, -1] * across + way.y[1, -1] * uphill
-    assert np.linalg.norm(found - expected) < (1e-7 if accuracy == 'reference' else 2e-4)
+    # No step of `sketch` ends where grip begins to be short of what resistance would take.
+    within = {'reference': 1e-7, 'standard': 2e-4, 'sketch': 3e-4}
+    assert np.linalg.norm(found - expected) < within[accuracy]
 
 
 @pytest.mark.parametrize('accuracy', ACCURACY)

@@ -40,9 +40,13 @@ def set_support(land: Land, ball: BallRecord, part: int, normal: Vector) -> None
 
 @kernel
 def contact_material_number(land: Land, ball: BallRecord, part: int, normal: Vector) -> int:
-    """Look up the number of the material of `part` where the ball touches it with `normal`."""
+    """Look up the number of the material of `part` where the ball touches it with `normal`.
+
+    On a border it is that of the side towards which the ball moves.
+    """
     foot = add_scaled(load(ball['position']), -land.ball.radius, normal)
-    return surfaces.material_of(land.ground, part, foot)
+    ahead = unit(load(ball['velocity']), ZERO)
+    return surfaces.material_of(land.ground, part, add_scaled(foot, surfaces.LOOK_AHEAD, ahead))
 
 
 @kernel
@@ -119,7 +123,9 @@ def choose_contact_mode(land: Land, ball: BallRecord, now: float) -> None:
     k = land.ball.inertia
     turning = dot(load(ball['spin']), normal)
     # Friction that turns the ball as it rolls must be within the cone of static friction.
-    grips = rolling_needs(downhill, k) <= material['static_friction'] * press
+    braked = ZERO if in_micro_bounces(ball, now) else v
+    needed = rolling_needs(material, press, downhill, braked, k)
+    grips = needed <= material['static_friction'] * press
     store(ball['velocity'], v)
     sliding = slip(v, load(ball['spin']), normal, land.ball.radius)
     if not grips or ball['phase'] != ROLL and length(sliding) > LEAST_SPEED:

@@ -47,6 +47,7 @@ from ..mechanics.vector import (
 )
 from ..state.ball import BALL_STOPS, SLIDE, SLIP_STOPS, STEP_END
 from ..trajectory.equations_of_motion import (
+    growing_needs,
     growth_rate,
     LEAST_SPEED,
     material_under,
@@ -93,15 +94,18 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
         growth *= 1.0 + k
         # What grows with speed brakes the centre alone, and so drives slip: where friction can't
         # hold it, slip does not end, or begins anew the other way.
-        losing = (1.0 + 1.0 / k) * braking - growth * dot(v, v)
+        losing = (1.0 + 1.0 / k) * braking - growth * dot(v, v) - length(downhill)
         if losing < LEAST_BRAKE:
             return False
         time = length(u) / losing
         change = 2.0 * growth * (braking + growth * dot(v, v)) * length(v) * time
     else:
+        needed = rolling_needs(material, press, downhill, v, k)
+        if needed > material['static_friction'] * press:
+            return False
         braking = material['rolling_resistance'] * press - length(downhill) / (1.0 + k)
         time = length(v) / max(braking, LEAST_BRAKE)
-        change = growth * dot(v, v)
+        change = max(growth * dot(v, v), growing_needs(material, press, v, k) * length(v))
     return change * time * time <= EVENLY * land.limits.path
 
 
@@ -149,9 +153,8 @@ def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
         motion = coulomb_deceleration.decelerated(u, downhill, friction, normal)
         coast = (add_scaled(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:
-        resistance = growing + (
-            0.0 if tail else rolling_deceleration(material, press, rolling_needs(downhill, k))
-        )
+        needed = rolling_needs(material, press, downhill, ZERO, k)
+        resistance = growing + (0.0 if tail else rolling_deceleration(material, press, needed))
         motion = coulomb_deceleration.decelerated(v, drift, resistance, normal)
         coast = (ZERO, ZERO, 1.0)
     unwinding = material['pivot_friction'] * press / (k * land.ball.radius * land.ball.radius)

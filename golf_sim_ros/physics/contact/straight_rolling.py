@@ -16,7 +16,7 @@
 
 The ball rolls straight on, and v' = -(a + c v^2) is that of a falling body in quadratic drag,
 upwards: with an angle p, v = sqrt(a/c) tan p, which falls by sqrt(a c) a second, and the way is
-log(cos p1 / cos p0) / c.
+log(cos p1 / cos p0) / c. A fast ball, whose spin takes grip to be slowed, has another a and c.
 """
 
 from math import atan, cos, log, sqrt, tan
@@ -30,13 +30,15 @@ from ..kernel_types import BallRecord, Land, Vector
 from ..mechanics.vector import add_scaled, cross, dot, length, load, scale, store, sub, unit, ZERO
 from ..state.ball import BALL_STOPS, ROLL, STEP_END
 from ..trajectory.equations_of_motion import (
+    growing_needs,
     growth_rate,
     LEAST_SPEED,
     material_under,
-    rolling_deceleration,
     unwinding,
 )
 from ..trajectory.segment import fit_segment, position
+
+SAME_GRIP = 1e-9  # of the resistance: grip that is short by less is taken as enough
 
 # Deceleration at rest [m/s^2], and its growth with the square of the speed [1/m].
 Braking = tuple[float, float]
@@ -44,15 +46,34 @@ Braking = tuple[float, float]
 
 @kernel
 def rolls_straight(land: Land, ball: BallRecord, now: float) -> bool:
-    """Whether the ball rolls on level ground, braked and without micro-bounces."""
+    """Whether the ball rolls on level ground, braked, gripping and without micro-bounces."""
     if ball['phase'] != ROLL or in_micro_bounces(ball, now):
         return False
     weight = gravity_at(land.effects, load(ball['position']))
     press, downhill = surfaces.slope(weight, load(ball['normal']))
-    return (
-        dot(downhill, downhill) == 0.0
-        and rolling_deceleration(material_under(land, ball), press, 0.0) > 0.0
-    )
+    if dot(downhill, downhill) > 0.0:
+        return False
+    braking, grip, _ = level_braking(land, ball, press)
+    return grip >= 0.0 and braking[0] > 0.0 and braking[1] > 0.0
+
+
+@kernel
+def level_braking(land: Land, ball: BallRecord, press: float) -> tuple[Braking, float, float]:
+    """Braking of the ball on level ground, grip left over [m/s^2], and the slowest speed [m/s].
+
+    The braking holds from the ball's speed down to the slowest one. Where much of the grip is
+    needed to slow the spin, resistance has what is left: see `rolling_deceleration`.
+    """
+    material = material_under(land, ball)
+    v = load(ball['velocity'])
+    growth = growth_rate(material, press)
+    even = material['rolling_resistance'] * press
+    most = material['static_friction'] * press
+    needed = growing_needs(material, press, v, land.ball.inertia) * length(v)
+    if (1.0 - SAME_GRIP) * even <= most - needed or needed == 0.0:
+        return (min(even, most), growth), most - needed, 0.0
+    share = needed / dot(v, v)
+    return (most, growth - share), most - needed, sqrt(max(most - even, 0.0) / share)
 
 
 @shared
@@ -64,7 +85,7 @@ def rolling_segment(land: Land, ball: BallRecord) -> None:
     normal = load(ball['normal'])
     material = material_under(land, ball)
     press, _ = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
-    braking = rolling_deceleration(material, press, 0.0), growth_rate(material, press)
+    braking, _, slowest = level_braking(land, ball, press)
     turning = dot(load(ball['spin']), normal)
     losing = unwinding(material, press, land.ball.radius, land.ball.inertia)
     end = LONGEST_SEGMENT
@@ -73,10 +94,10 @@ def rolling_segment(land: Land, ball: BallRecord) -> None:
     if losing > 0.0:
         end = min(end, abs(turning) / losing)
     pivot = (turning, losing if turning > 0.0 else -losing)
-    stop = atan(length(load(ball['velocity'])) * sqrt(braking[1] / braking[0])) / sqrt(
-        braking[0] * braking[1]
-    )
-    ball['ending'] = BALL_STOPS if stop <= end else STEP_END
+    share = sqrt(braking[1] / braking[0])
+    turn = atan(share * length(load(ball['velocity']))) - atan(share * slowest)
+    stop = turn / sqrt(braking[0] * braking[1])
+    ball['ending'] = BALL_STOPS if stop <= end and slowest == 0.0 else STEP_END
     end = min(end, stop)
     while True:
         fit_straight(land, ball, braking, end, pivot)

@@ -59,6 +59,7 @@ from ..mechanics.vector import (
 )
 from ..response.ground_impact import cross_border
 from ..response.time_stepping import next_step_time, straight_segment
+from ..response.water_impact import sinking_time
 from ..response.wedged_ball import is_wedged, wedged_step_length
 from ..state.ball import (
     BORDER_CROSSING,
@@ -83,7 +84,7 @@ MANY_ZERO_LENGTH = 100
 MOMENT = 1e-9  # s
 LEAST_STRAY = 1.5e-7  # m
 LEAST_PRESS = 0.1  # of the weight: the least that lift leaves of it during micro-bounces
-# s: longest segment under water, at whose end the ball may turn out to have sunk
+# s: longest segment under water: what ends there is not looked for over a longer one
 SINKING_STEP = 0.02
 
 
@@ -172,13 +173,14 @@ def limit_by_ground(model: ModelRecord, ball: BallRecord, until: float, on: int)
 
 @kernel
 def limit_by_water(model: ModelRecord, ball: BallRecord, until: float) -> float:
-    """First time, at most `until`, of an entry into water, or of a look at a sinking ball.
+    """First time, at most `until`, of an entry into water, or at which a ball in it only sinks.
 
     Writes ending, target.
     """
     if ball['water'] > 0:
-        if until > SINKING_STEP:
-            until = SINKING_STEP
+        ends = sinking_time(model.land, ball, min(until, SINKING_STEP))
+        if ends < until:
+            until = ends
             ball['ending'] = STEP_END
     else:
         until, water = first_water_entry(model.land.ground.waters, ball, until)

@@ -276,6 +276,11 @@ def _touchable(kind: Meshes, part: int, point: Vector) -> bool:
     )
 
 
+@surface_protocol.is_uneven.register(Meshes)
+def _is_uneven(kind: Meshes, part: int) -> bool:
+    return True
+
+
 @surface_protocol.flat_under.register(Meshes)
 def _flat_under(kind: Meshes, part: int, point: Vector) -> bool:
     return is_over_triangle(kind.triangles[part], point)

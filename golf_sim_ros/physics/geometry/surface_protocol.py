@@ -124,6 +124,12 @@ def effort(kind: KindRecord, part: int) -> int:
 
 
 @generic
+def is_uneven(kind: KindRecord, part: int) -> bool:
+    """Whether the ground around `part` is another after a hop: bounces there depend on where."""
+    return False
+
+
+@generic
 def touchable(kind: KindRecord, part: int, point: Vector) -> bool:
     """Whether the surface exists at the point of `part` nearest to `point`, and faces it."""
     return True

@@ -23,6 +23,7 @@ from ..mechanics.vector import dot, length, load, scale, store, sub, UP
 from ..properties.water import ADDED_MASS, WATER_DENSITY
 from ..state.ball import FLIGHT, moves, NO_PART
 from ..state.events import Log, WATER_HIT
+from ..trajectory import segment
 from ..trajectory.shot_record import record_landing
 
 # Johnson, Ricochet of non-spinning projectiles, mainly from water, Int. J. Impact Eng. 21 (1998)
@@ -36,6 +37,7 @@ ALONG_KEPT = 0.7
 UPWARD_KEPT = 0.6
 SPIN_KEPT = 0.5
 DEEP = 2.0  # radii below the surface: the ball is well under water
+SAME_TIME = 1e-9  # s: so much later than that it only sinks a ball's shot may end
 SINKING_SPEED = 0.5  # m/s: a golf ball sinks at 0.4, so a slower one has lost what it came with
 DEEPEST = 5.0  # m below the surface: deeper down no ball is followed
 
@@ -112,7 +114,29 @@ def has_ended_in_water(land: Land, ball: BallRecord) -> bool:
         return False
     if ball['phase'] != FLIGHT:
         return True
-    v = load(ball['velocity'])
-    depth = land.ground.waters.levels[ball['water'] - 1] - ball['position'][2]
+    return only_sinks(land, ball, load(ball['position']), load(ball['velocity']))
+
+
+@kernel
+def only_sinks(land: Land, ball: BallRecord, place: Vector, v: Vector) -> bool:
+    """Whether the ball, which is in water, only sinks or floats once it is at `place` with `v`."""
+    depth = land.ground.waters.levels[ball['water'] - 1] - place[2]
     slow = dot(v, v) < SINKING_SPEED * SINKING_SPEED
     return depth > DEEPEST or slow and (depth > DEEP * land.ball.radius or v[2] >= 0.0)
+
+
+@kernel
+def sinking_time(land: Land, ball: BallRecord, until: float) -> float:
+    """First time on the segment, at most `until`, at which the ball only sinks or floats."""
+    place, v = segment.position(ball, until), segment.velocity(ball, until)
+    if not only_sinks(land, ball, place, v):
+        return until
+    before, after = 0.0, until
+    while after - before > SAME_TIME:
+        middle = 0.5 * (before + after)
+        place, v = segment.position(ball, middle), segment.velocity(ball, middle)
+        if only_sinks(land, ball, place, v):
+            after = middle
+        else:
+            before = middle
+    return min(after + SAME_TIME, until)

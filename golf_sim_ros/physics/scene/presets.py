@@ -25,8 +25,9 @@ from ..kernel_types import MethodRecord
 class Preset(NamedTuple):
     """Integrator with its tolerance, limits of the contact laws, and the error that they promise.
 
-    ``touch`` and ``rest`` [m]: bounds on the error of the place of first contact, and of rest on
-    level ground, for shots of up to 90 m/s in still air. ``use``: what it is for, in a few words.
+    ``touch`` and ``rest`` [m]: bounds on the error of the place of first contact, and of rest, for
+    shots of up to 90 m/s in still air: of every shot on level ground, of 99 in 100 on a height
+    map. ``use``: what it is for, in a few words.
     """
 
     method: MethodRecord

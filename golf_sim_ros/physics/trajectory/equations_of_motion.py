@@ -37,6 +37,8 @@ from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
 KEPT = 7  # row of ``stages`` that no stage is in
+GRIP_MARGIN = 1.05
+LEAST_FRICTION = 1e-9  # coefficient: less counts as none
 STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is only stiff
 
 # Distance [m] of a place from the surface that supports a ball, the normal there, and its rate of
@@ -70,8 +72,8 @@ def material_under(land: Land, ball: BallRecord) -> MaterialRecord:
 def rolling_deceleration(material: MaterialRecord, press: float, needed: float) -> float:
     """Deceleration [m/s^2] of a rolling ball: rolling resistance, as far as grip allows.
 
-    Friction has to brake the ball, and to turn it as it speeds up downhill, for which it is
-    `needed`: on a plane k/(1 + k) of the pull.
+    Friction has to brake the ball, and to turn it as it speeds up downhill, or as long grass slows
+    it, for which it is `needed`: see `rolling_needs`.
     """
     return min(
         material['rolling_resistance'] * press,
@@ -84,7 +86,7 @@ def resistance_holds(
     material: MaterialRecord, press: float, downhill: Vector, inertia: float
 ) -> bool:
     """Whether rolling resistance keeps a ball that grips at rest: where (5/7) tan is within it."""
-    needed = rolling_needs(downhill, inertia)
+    needed = rolling_needs(material, press, downhill, ZERO, inertia)
     return length(downhill) / (1.0 + inertia) <= rolling_deceleration(material, press, needed)
 
 
@@ -96,9 +98,35 @@ def growth_rate(material: MaterialRecord, press: float) -> float:
 
 
 @kernel
-def rolling_needs(downhill: Vector, inertia: float) -> float:
-    """Friction over mass [m/s^2] that turns a ball as it rolls down a plane without slip."""
-    return inertia / (1.0 + inertia) * length(downhill)
+def rolling_needs(
+    material: MaterialRecord, press: float, downhill: Vector, velocity: Vector, inertia: float
+) -> float:
+    """Friction over mass [m/s^2] that turns a ball as it rolls on a plane without slip.
+
+    It turns the ball faster down the slope, and slower against what grows of the resistance.
+    """
+    growing = growing_needs(material, press, velocity, inertia)
+    if growing == 0.0:
+        return inertia / (1.0 + inertia) * length(downhill)
+    faster = scale(inertia / (1.0 + inertia), downhill)
+    return length(add_scaled(faster, -growing, velocity))
+
+
+@kernel
+def growing_needs(
+    material: MaterialRecord, press: float, velocity: Vector, inertia: float
+) -> float:
+    """Friction over mass and speed [1/s] that slows a rolling ball's spin as its centre is slowed.
+
+    Of the resistance that grows with speed. It may exceed dynamic friction by GRIP_MARGIN, and so
+    counts by the ratio of static friction to that: up to static friction a ball that slips by
+    nothing would go on to slip or would not, by luck, over a wide range of speeds.
+    """
+    growing = inertia * growth_rate(material, press) * length(velocity)
+    if growing == 0.0:
+        return 0.0
+    most = max(GRIP_MARGIN * material['dynamic_friction'], LEAST_FRICTION)
+    return growing * max(material['static_friction'] / most, 1.0)
 
 
 @kernel
@@ -207,7 +235,7 @@ def rates_on(
     g_t + k r w_n (n x n'). A sliding ball has dynamic friction against its slip instead, or, where
     it only begins to slip, along the friction that rolling would need. What of the resistance
     grows with speed acts on the centre: 1 + k times the deceleration that it gives a rolling ball,
-    whose spin it has to slow as well.
+    whose spin friction has to slow as well; where it can't, the ball slips.
     """
     r = land.ball.radius
     k = land.ball.inertia
@@ -226,9 +254,13 @@ def rates_on(
     if tail:
         load, downhill = micro_bounce_forces(ball, normal, press, downhill)
     free = scale(1.0 / (1.0 + k), add_scaled(downhill, k * r * about, cross(normal, turn)))
-    needed = length(sub(free, downhill))
-    resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
     growing = 0.0 if tail else growth_rate(material, press) * length(velocity)
+    turning = sub(free, downhill)
+    if growing > 0.0:
+        turning = add_scaled(turning, growing_needs(material, press, velocity, k), velocity)
+    needed = length(turning)
+    resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
+    downhill = add_scaled(downhill, -(1.0 + k) * growing, velocity)
     if length(velocity) > LEAST_SPEED:
         free = add_scaled(free, -resistance / length(velocity) - growing, velocity)
     else:  # from rest it sets off along what drives it, if that exceeds the resistance
@@ -239,7 +271,6 @@ def rates_on(
         if length(against) <= LEAST_SPEED:
             against = friction
         friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
-        downhill = add_scaled(downhill, -(1.0 + k) * growing, velocity)
     force = add_scaled(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
     # no slip: the spin follows the velocity, which resistance brakes, too
