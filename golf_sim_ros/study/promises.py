@@ -23,25 +23,51 @@ import numpy as np
 
 from .methods import TRUTH
 from .scenes import EFFECTS, level
+from ..course import load_course
 from ..physics import ACCURACY, Course, Material, Preset, simulate_many
+from ..physics.effects import EffectNames
 
 SHOTS = 20_000
+RELIEF = 'links'  # course whose ground is a height map
+MOST_SHOTS = 0.01  # on relief a promise is of all shots but one in a hundred
+
+# Plays the random shots with a preset: first touches (n, 2) and rests (n, 3) [m].
+Ends = Callable[[str | Preset], tuple[np.ndarray, np.ndarray]]
 
 
 class PromiseRow(NamedTuple):
-    """A preset over many shots: errors [m] of the first touch, and the worst of the rest."""
+    """A preset over many shots on a ground: errors [m] of the first touch and of the rest.
 
+    Their medians, what 99 of 100 shots are within, the worst; and how many are beyond the promise.
+    """
+
+    ground: str
     accuracy: str
     shots: int
     touch_median: float
+    touch_most: float
     touch_worst: float
+    touch_beyond: int
+    rest_median: float
+    rest_most: float
     rest_worst: float
+    rest_beyond: int
 
 
 def jobs(material: Material, count: int = SHOTS) -> list[Callable[[], PromiseRow]]:
-    """Make a function for each row; `count` shots end on level ground of a `material`."""
-    ends = lru_cache(partial(played, level(material), count))
-    return [partial(kept, ends, name) for name in ACCURACY]
+    """Make a function for each row; `count` shots on level ground of a `material`, and on relief.
+
+    CourseError where the course can't be read.
+    """
+    grounds: tuple[tuple[str, Course, EffectNames], ...] = (
+        ('level', level(material), EFFECTS),
+        (RELIEF, load_course(RELIEF), 'auto'),
+    )
+    ends = [
+        (ground, lru_cache(partial(played, course, effects, count)))
+        for ground, course, effects in grounds
+    ]
+    return [partial(kept, ground, of, name) for ground, of in ends for name in ACCURACY]
 
 
 def random_shots(count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
@@ -56,19 +82,31 @@ def random_shots(count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
     return np.transpose([speed * np.cos(up), np.zeros(count), speed * np.sin(up)]), spins
 
 
-def played(course: Course, count: int, accuracy: str | Preset) -> tuple[np.ndarray, np.ndarray]:
+def played(
+    course: Course, effects: EffectNames, count: int, accuracy: str | Preset
+) -> tuple[np.ndarray, np.ndarray]:
     """Play the random shots.
 
     Returns first touches (n, 2), along the launch and across, and rests (n, 3) [m].
     """
-    told = simulate_many(course, *random_shots(count), effects=EFFECTS, accuracy=accuracy)
+    told = simulate_many(course, *random_shots(count), effects=effects, accuracy=accuracy)
     side = told['carry_side']
-    return np.transpose([np.sqrt(told['carry'] ** 2 - side**2), side]), told['position']
+    along = np.sqrt(np.maximum(told['carry'] ** 2 - side**2, 0.0))
+    return np.transpose([along, side]), told['position']
 
 
-def kept(ends: Callable[[str | Preset], tuple[np.ndarray, np.ndarray]], name: str) -> PromiseRow:
-    """`PromiseRow` of a preset; ``ends(accuracy)`` gives what `played` does."""
+def kept(ground: str, ends: Ends, name: str) -> PromiseRow:
+    """`PromiseRow` of a preset on a ground; ``ends(accuracy)`` gives what `played` does."""
+    preset = ACCURACY[name]
     touch, rest = (
         np.linalg.norm(mine - true, axis=1) for mine, true in zip(ends(name), ends(TRUTH))
     )
-    return PromiseRow(name, len(touch), float(np.median(touch)), touch.max(), rest.max())
+    return PromiseRow(
+        ground, name, len(touch), *spread(touch, preset.touch), *spread(rest, preset.rest)
+    )
+
+
+def spread(errors: np.ndarray, promised: float) -> tuple[float, float, float, int]:
+    """Median, 99 of 100 and worst of the errors [m], and how many are beyond what is promised."""
+    median, most, worst = np.percentile(errors, [50.0, 100.0 * (1.0 - MOST_SHOTS), 100.0])
+    return float(median), float(most), float(worst), int((errors > promised).sum())

@@ -116,15 +116,18 @@ def preset_table(rows: Sequence[Row]) -> str:
 def promise_table(rows: Sequence[PromiseRow]) -> str:
     """Markdown table: promises of the presets, and what many shots showed."""
     lines = [
-        '| preset | shots | first touch: median | worst | promised | rest: worst | promised |',
-        '|---|---|---|---|---|---|---|',
+        '| ground | preset | shots | first touch: median | 99 % | worst | promised, beyond '
+        '| rest: median | 99 % | worst | promised, beyond |',
+        '|---|---|---|---|---|---|---|---|---|---|---|',
     ]
     for row in rows:
         preset = ACCURACY[row.accuracy]
         lines.append(
-            f'| {row.accuracy} | {row.shots:,} | {row.touch_median:.1e} m '
-            f'| {row.touch_worst:.1e} m | {preset.touch:g} m '
-            f'| {row.rest_worst:.1e} m | {preset.rest:g} m |'
+            f'| {row.ground} | {row.accuracy} | {row.shots:,} | {row.touch_median:.1e} m '
+            f'| {row.touch_most:.1e} m | {row.touch_worst:.1e} m '
+            f'| {preset.touch:g} m, {row.touch_beyond} | {row.rest_median:.1e} m '
+            f'| {row.rest_most:.1e} m | {row.rest_worst:.1e} m '
+            f'| {preset.rest:g} m, {row.rest_beyond} |'
         )
     return '\n'.join(lines)
 
@@ -151,10 +154,7 @@ def ground_table(rows: Sequence[GroundRow]) -> str:
 
 
 def beyond_promise(rows: Sequence[GroundRow]) -> str:
-    """Markdown list: where more than a hundredth of shots is further off than a preset promises.
-
-    That is, than it promises for level ground.
-    """
+    """Markdown list: where over a hundredth of shots is further off than a preset promises."""
     lines = [
         f'- {row.setting}, {row.strike} on {row.ground}: {row.rest_most:.1e} m instead of '
         f'{ACCURACY[row.setting].rest:g} m, the worst {row.rest_worst:.1e} m.'
