@@ -25,6 +25,7 @@ from pathlib import Path
 import platform
 import subprocess
 
+import batches
 import compiling
 import engines
 from golf_sim_ros.physics.engine.engines import prefer_compiled
@@ -36,7 +37,7 @@ import shots
 import ticks
 
 HISTORY = Path(__file__).parent / 'history.jsonl'
-PARTS = compiling, shots, grounds, ticks, scale, node, engines, off
+PARTS = compiling, shots, grounds, batches, ticks, scale, node, engines, off
 
 
 def main():

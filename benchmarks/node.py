@@ -53,7 +53,9 @@ def rows(quick):
         'sim_node at 1000 Hz, told at 50 Hz, one ball in flight', seconds, 1, rate=1000.0
     )
     yield from figures('sim_node at its default rates, one ball in flight', seconds, 1, most=12.0)
-    yield from figures('sim_node at its default rates, 100 balls in flight', seconds, 100)
+    yield from figures(
+        'sim_node at its default rates, 100 balls in flight', seconds, 100, most=40.0
+    )
     yield from figures(
         'sim_node in plain Python, default rates, one ball in flight',
         seconds,

@@ -106,10 +106,10 @@ def played(batch: Batch, strikes: np.ndarray, progress: Optional[Progress] = Non
         world._log,
     )
     found = [
-        ends(play, scene, part)
+        summary(ends(play, scene, part), batch.course.hole, world._labels.materials)
         for part in (progress(parts, total=len(parts)) if progress and len(parts) > 1 else parts)
     ]
-    return summary(np.concatenate(found), batch.course.hole, world._labels.materials)
+    return np.concatenate(found)
 
 
 def ends(

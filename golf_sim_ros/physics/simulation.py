@@ -21,7 +21,7 @@ from typing import Iterable, NamedTuple, Optional, Union
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .batch import Batch, batch_engine, played, Progress, progress_bar
+from .batch import ANY_SHOT, Batch, batch_engine, played, Progress, progress_bar
 from .effects import EffectNames
 from .engine.engines import checked_engine
 from .geometry import surfaces
@@ -187,6 +187,8 @@ def simulate_many(
         batch = batch._replace(engine=batch_engine(batch, len(strikes)))
     if executor is None:
         return played(batch, strikes, progress)
+    if batch.engine == 'compiled':
+        played(batch, ANY_SHOT)  # numba loads and compiles in one thread at a time only
     parts = [part for part in np.array_split(strikes, chunks) if len(part)] or [strikes]
     try:
         # One argument: some executors want to know how many there are.

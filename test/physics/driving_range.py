@@ -20,7 +20,8 @@ EVERYTHING, which does nothing more on hard ground than on soft, and GRAVITY.
 
 from math import cos, radians, sin
 
-from golf_sim_ros.physics import Course, Material, Patch, PENNER, Plane, Restitution
+from golf_sim_ros.physics import ACCURACY, Course, Material, Patch, PENNER, Plane, Restitution
+from golf_sim_ros.physics.response.ground_impact import ON_RELIEF
 import numpy as np
 
 EVERYTHING = ('gravity', 'drag', 'magnus', 'spin_decay', 'turf')
@@ -33,6 +34,13 @@ HARD = Material('hard', Restitution(0.5), 0.0, 0.5, 0.4, 0.1, 0.003)
 def level(material, **more):
     """Course of one level plane through the origin."""
     return Course((Plane(material=material),), **more)
+
+
+def as_on_relief(accuracy):
+    """Preset that sums bounces on planes from the same speed on as `accuracy` does on relief."""
+    preset = ACCURACY[accuracy]
+    settle = ON_RELIEF * preset.limits.settle
+    return preset._replace(limits=preset.limits._replace(settle=settle))
 
 
 def slope(angle, material):

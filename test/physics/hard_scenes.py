@@ -20,7 +20,7 @@ Each is played at a preset and a tick and gives one figure, which must lie from 
 from math import cos, hypot, pi, radians, sin, sqrt
 from typing import Callable, NamedTuple
 
-from driving_range import GRAVITY
+from driving_range import as_on_relief, GRAVITY
 from golf_sim_ros.physics import (
     Ball,
     Course,
@@ -561,8 +561,9 @@ def tilted(kind, accuracy, rate):
         else floor(2, up=normal)
     )
     tracks = []
-    for shape in (ground, Plane(normal=tuple(normal), material=GRIP)):
-        world, track = alone((shape,), accuracy), []
+    plane = Plane(normal=tuple(normal), material=GRIP)
+    for shape, exactly in ((ground, accuracy), (plane, as_on_relief(accuracy))):
+        world, track = alone((shape,), exactly), []
         world.place('ball', (0.0, 0.0, 0.3), (1.0, 0.5, 2.0), (3.0, -60.0, 20.0))
         run(world, 4.0, rate, lambda events: track.append(world['ball'].position))
         tracks.append(np.array(track))

@@ -85,6 +85,32 @@ def test_threads_play_the_same_shots():
     assert found.tobytes() == alone().tobytes()
 
 
+BY_FRESH_THREADS = """
+from concurrent.futures import ThreadPoolExecutor
+from golf_sim_ros.physics import simulate_many
+from test_executors import COURSE, SPINS, VELOCITIES, alone
+
+with ThreadPoolExecutor(4) as threads:
+    found = simulate_many(
+        COURSE, VELOCITIES, SPINS, executor=threads, chunks=4, engine='compiled'
+    )
+assert found.tobytes() == alone().tobytes()
+"""
+
+
+def test_threads_may_be_the_first_that_play():
+    pytest.importorskip('numba', reason='numba is not installed')
+    path = os.pathsep.join([str(HERE.parents[1]), str(HERE), str(HERE.parent)])
+    done = subprocess.run(
+        [sys.executable, '-c', BY_FRESH_THREADS],
+        env={**os.environ, 'PYTHONPATH': path},
+        capture_output=True,
+        text=True,
+        timeout=500,
+    )
+    assert done.returncode == 0, done.stderr
+
+
 def test_processes_play_the_same_shots(processes):
     found = simulate_many(COURSE, VELOCITIES, SPINS, executor=processes, chunks=3)
     assert found.tobytes() == alone().tobytes()
