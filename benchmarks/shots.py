@@ -69,14 +69,14 @@ def rows(quick):
             clock=perf_counter,
             least=1.5,
         )
-    bunker = drive._replace(course=level(ground('sand')))  # it ends where it lands
+    flight = trapped(drive)  # it ends where it lands
     yield faster(
         'flight with gravity alone, over one with drag, lift, spin decay, wind',
-        volley(bunker, effects=('gravity',)),
-        volley(bunker, **EVERYTHING),
+        volley(flight, effects=('gravity',)),
+        volley(flight, **EVERYTHING),
         least=3.0,
     )
-    yield from error_levels(trapped(drive), LEVELS[::3] if quick else LEVELS)
+    yield from error_levels(flight, LEVELS[::3] if quick else LEVELS)
 
 
 def ground(name):
