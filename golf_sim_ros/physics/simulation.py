@@ -156,7 +156,8 @@ def simulate_many(
         See `simulate`.
     executor : concurrent.futures.Executor, optional
         Plays `chunks` parts of the shots at once: threads, processes, or other machines. Kernels
-        let other threads run, so threads do as well as processes, and share what is compiled.
+        let other threads run, so threads do as well as processes, and share what is compiled. The
+        compiled engine is loaded here first, or compiled.
     progress : callable, optional
         ``progress(parts, total=n)`` gives the parts back one by one and shows how far they are, as
         `tqdm.tqdm` does. Else there is such a bar on a terminal, where tqdm is installed and it

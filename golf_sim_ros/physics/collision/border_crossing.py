@@ -30,6 +30,8 @@ from ..trajectory.segment import (
     velocity,
 )
 
+BEYOND = 1e-9  # m past a border, much more than TOUCH
+
 
 @shared
 def first_border_crossing(
@@ -37,7 +39,8 @@ def first_border_crossing(
 ) -> tuple[float, bool]:
     """First time, at most `until`, at which the segment crosses a border in plan; whether it does.
 
-    What crosses is the ball's foot, its lowest point along the normal: there it is supported.
+    Up to a time at which it does not none is crossed, and further the search did not come. What
+    crosses is the ball's foot, its lowest point along the normal: there it is supported.
     """
     best = until
     crosses = False
@@ -57,18 +60,15 @@ def first_border_crossing(
             border = ground.borders[i]
             if is_beside(border, low, high):
                 continue
-            time = border_crossing_time(border, ball, (dx, dy, 0.0), bend, best)
-            if time < best:
-                best = time
-                crosses = True
+            before = best
+            best, at_border = border_crossing_time(border, ball, (dx, dy, 0.0), bend, best)
+            crosses = at_border or crosses and best == before
     for i in range(surfaces.limits(ground, ball['support'])):
         point, inward = surfaces.limit(ground, ball['support'], i)
-        time = limit_crossing_time(
-            ball, add_scaled(point, radius, load(ball['normal'])), inward, best
-        )
-        if time < best:
-            best = time
-            crosses = True
+        before = best
+        at = add_scaled(point, radius, load(ball['normal']))
+        best, at_border = limit_crossing_time(ball, at, inward, best)
+        crosses = at_border or crosses and best == before
     return best, crosses
 
 
@@ -97,10 +97,12 @@ def is_beside(border: StructRecord, low: tuple[float, float], high: tuple[float,
 
 
 @kernel
-def limit_crossing_time(ball: BallRecord, point: Vector, inward: Vector, until: float) -> float:
+def limit_crossing_time(
+    ball: BallRecord, point: Vector, inward: Vector, until: float
+) -> tuple[float, bool]:
     """First time before `until` at which the segment leaves through the line at `point`.
 
-    `until` if it does not.
+    And whether it does; see `first_border_crossing`.
     """
     time = 0.0
     bend = max(0.0, -least_acceleration(ball, inward))
@@ -109,21 +111,24 @@ def limit_crossing_time(ball: BallRecord, point: Vector, inward: Vector, until: 
         rate = dot(velocity(ball, time), inward)
         if gap <= TOUCH:
             if rate < 0.0:  # on the line from the start: far enough past it to tell what is there
-                return time if time > 0.0 else min(until, 2.0 * surfaces.LOOK_AHEAD / -rate)
+                past = time if time > 0.0 else 2.0 * surfaces.LOOK_AHEAD / -rate
+                return min(past, until), past < until
             gap = TOUCH
         time += max(advancement_bound(gap, rate, bend), 1e-12)
         if time >= until:
-            return until
-    return until
+            return until, False
+    return time, False
 
 
 @kernel
 def border_crossing_time(
     border: StructRecord, ball: BallRecord, shift: Vector, bend: float, until: float
-) -> float:
-    """First time before `until` at which the segment, moved by `shift`, reaches `border`.
+) -> tuple[float, bool]:
+    """First time before `until` at which the segment, moved by `shift`, is across `border`.
 
-    `until` if it does not. A segment that starts on the border has crossed it already.
+    And whether it gets there; see `first_border_crossing`. The time is that at which it is BEYOND
+    the border, however obliquely it crosses: there what it is on can be told. A segment that
+    starts on the border has crossed it already.
     """
     time = 0.0
     start = add(position(ball, 0.0), shift)
@@ -134,15 +139,18 @@ def border_crossing_time(
         speed = length(velocity(ball, 0.0))
         time = 1e-8 / (speed + 1e-8)
         if time >= until:
-            return until
+            return until, False
     rate = 0.0
     for _ in range(MOST_ADVANCES):
         place = add(position(ball, time), shift)
         gap, direction = surfaces.distance_in_plan(border, place[0], place[1])
         if gap <= TOUCH:  # on the line there is no direction from it: the approach decides
-            return time if rate < 0.0 else until
+            if rate >= 0.0:
+                return until, False
+            across = time + BEYOND / -rate
+            return across if across < until else time, True
         rate = dot(direction, velocity(ball, time))
         time += advancement_bound(gap, rate, bend)
         if time >= until:
-            return until
-    return until
+            return until, False
+    return time, False

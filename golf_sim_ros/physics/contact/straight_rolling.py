@@ -16,7 +16,8 @@
 
 The ball rolls straight on, and v' = -(a + c v^2) is that of a falling body in quadratic drag,
 upwards: with an angle p, v = sqrt(a/c) tan p, which falls by sqrt(a c) a second, and the way is
-log(cos p1 / cos p0) / c. A fast ball, whose spin takes grip to be slowed, has another a and c.
+log(cos p1 / cos p0) / c. Of static friction S, slowing the spin takes N v^2, and constant
+resistance has only what is left: then a = S, and c is less by N.
 """
 
 from math import atan, cos, log, sqrt, tan
@@ -38,6 +39,7 @@ from ..trajectory.equations_of_motion import (
 )
 from ..trajectory.segment import fit_segment, position
 
+LEAST_GROWTH = 1e-6  # of the growth of resistance: a closed form with less is not exact
 SAME_GRIP = 1e-9  # of the resistance: grip that is short by less is taken as enough
 
 # Deceleration at rest [m/s^2], and its growth with the square of the speed [1/m].
@@ -53,16 +55,19 @@ def rolls_straight(land: Land, ball: BallRecord, now: float) -> bool:
     press, downhill = surfaces.slope(weight, load(ball['normal']))
     if dot(downhill, downhill) > 0.0:
         return False
-    braking, grip, _ = level_braking(land, ball, press)
-    return grip >= 0.0 and braking[0] > 0.0 and braking[1] > 0.0
+    (even, growing), grip, _ = level_braking(land, ball, press)
+    # Where hardly anything grows, rounding would be all of it.
+    least = LEAST_GROWTH * growth_rate(material_under(land, ball), press)
+    return grip >= 0.0 and even > 0.0 and growing > least
 
 
 @kernel
 def level_braking(land: Land, ball: BallRecord, press: float) -> tuple[Braking, float, float]:
-    """Braking of the ball on level ground, grip left over [m/s^2], and the slowest speed [m/s].
+    """Braking of the ball on level ground, grip that slowing its spin leaves, and a speed.
 
-    The braking holds from the ball's speed down to the slowest one. Where much of the grip is
-    needed to slow the spin, resistance has what is left: see `rolling_deceleration`.
+    The grip is in m/s^2. The braking holds from the ball's speed down to that speed [m/s]. Where
+    much of the grip is needed to slow the spin, constant resistance has what is left: see
+    `rolling_deceleration`.
     """
     material = material_under(land, ball)
     v = load(ball['velocity'])
@@ -72,8 +77,8 @@ def level_braking(land: Land, ball: BallRecord, press: float) -> tuple[Braking, 
     needed = growing_needs(material, press, v, land.ball.inertia) * length(v)
     if (1.0 - SAME_GRIP) * even <= most - needed or needed == 0.0:
         return (min(even, most), growth), most - needed, 0.0
-    share = needed / dot(v, v)
-    return (most, growth - share), most - needed, sqrt(max(most - even, 0.0) / share)
+    spinning = needed / dot(v, v)
+    return (most, growth - spinning), most - needed, sqrt(max(most - even, 0.0) / spinning)
 
 
 @shared
@@ -94,8 +99,8 @@ def rolling_segment(land: Land, ball: BallRecord) -> None:
     if losing > 0.0:
         end = min(end, abs(turning) / losing)
     pivot = (turning, losing if turning > 0.0 else -losing)
-    share = sqrt(braking[1] / braking[0])
-    turn = atan(share * length(load(ball['velocity']))) - atan(share * slowest)
+    per_speed = sqrt(braking[1] / braking[0])
+    turn = atan(per_speed * length(load(ball['velocity']))) - atan(per_speed * slowest)
     stop = turn / sqrt(braking[0] * braking[1])
     ball['ending'] = BALL_STOPS if stop <= end and slowest == 0.0 else STEP_END
     end = min(end, stop)

@@ -482,8 +482,8 @@ def _height_above(kind: Maps, part: int, point: Vector, velocity: Vector) -> tup
     return z - at[0], velocity[2] - at[1] * velocity[0] - at[2] * velocity[1]
 
 
-@surface_protocol.is_uneven.register(Maps)
-def _is_uneven(kind: Maps, part: int) -> bool:
+@surface_protocol.has_relief.register(Maps)
+def _has_relief(kind: Maps, part: int) -> bool:
     return True
 
 

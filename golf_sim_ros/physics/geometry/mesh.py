@@ -276,8 +276,8 @@ def _touchable(kind: Meshes, part: int, point: Vector) -> bool:
     )
 
 
-@surface_protocol.is_uneven.register(Meshes)
-def _is_uneven(kind: Meshes, part: int) -> bool:
+@surface_protocol.has_relief.register(Meshes)
+def _has_relief(kind: Meshes, part: int) -> bool:
     return True
 
 

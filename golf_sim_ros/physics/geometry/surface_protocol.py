@@ -124,8 +124,8 @@ def effort(kind: KindRecord, part: int) -> int:
 
 
 @generic
-def is_uneven(kind: KindRecord, part: int) -> bool:
-    """Whether the ground around `part` is another after a hop: bounces there depend on where."""
+def has_relief(kind: KindRecord, part: int) -> bool:
+    """Whether the slope around `part` may be another at the next bounce."""
     return False
 
 

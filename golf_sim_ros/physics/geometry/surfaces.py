@@ -128,7 +128,7 @@ hollow = of_its_kind(surface_protocol.hollow, 0.0)
 relief = of_its_kind(surface_protocol.relief, (0.0, 0.0))
 height_above = of_its_kind(surface_protocol.height_above, (1e300, 0.0))
 effort = of_its_kind(surface_protocol.effort, 1)
-is_uneven = of_its_kind(surface_protocol.is_uneven, False)
+has_relief = of_its_kind(surface_protocol.has_relief, False)
 flat_under = of_its_kind(surface_protocol.flat_under, False)
 in_plane = of_its_kind(surface_protocol.in_plane, False)
 is_plane = of_its_kind(surface_protocol.is_plane, False)
@@ -403,6 +403,11 @@ def distance_in_plan(border: StructRecord, x: float, y: float) -> tuple[float, V
     ex = border['direction'][0]
     ey = border['direction'][1]
     t = min(max(dx * ex + dy * ey, 0.0), border['length'])
+    if border['radius'] == 0.0 and 0.0 < t < border['length']:
+        # Beside a straight border the direction is its normal: the difference of near points is
+        # rounding, by which a ball that crosses obliquely would miss it.
+        left = dy * ex - dx * ey
+        return abs(left), (-ey, ex, 0.0) if left >= 0.0 else (ey, -ex, 0.0)
     ox = dx - t * ex
     oy = dy - t * ey
     size = sqrt(ox * ox + oy * oy)

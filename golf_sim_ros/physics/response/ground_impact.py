@@ -51,7 +51,7 @@ WALL_REBOUND = 1e-4
 # Of the ball's speed: the same for a concave wall, around which one turn would be thousands of
 # impacts.
 HOLLOW_REBOUND = 0.01
-ON_RELIEF = 0.1  # of the threshold of micro-bounces on a plane: that on uneven ground
+ON_RELIEF = 0.1  # of the threshold of micro-bounces on a plane: that on height maps and meshes
 SLOW_FOR_AIR = 8.0  # m/s: speed from which the air's share of the micro-bounces counts
 # of 1 - e0: by so much restitution may grow with the approach and be summed all the same
 STEADY_RATIO = 0.1
@@ -275,10 +275,10 @@ def micro_bounce_threshold(land: Land, ball: BallRecord) -> float:
 
     It is less for a fast ball. The air acts on their sum at once, a little early: an error of
     position in proportion to the square of the speed and to the square of the time that they last.
-    And it is less on uneven ground, which their sum takes for a plane.
+    And it is less on relief, which their sum takes for a plane.
     """
     settle = land.limits.settle / (1.0 + length(load(ball['velocity'])) / SLOW_FOR_AIR)
-    if surfaces.is_uneven(land.ground, ball['target']):
+    if surfaces.has_relief(land.ground, ball['target']):
         settle *= ON_RELIEF
     return max(settle, LEAST_MICRO_BOUNCE)
 

@@ -37,7 +37,7 @@ ALONG_KEPT = 0.7
 UPWARD_KEPT = 0.6
 SPIN_KEPT = 0.5
 DEEP = 2.0  # radii below the surface: the ball is well under water
-SAME_TIME = 1e-9  # s: so much later than that it only sinks a ball's shot may end
+LATE = 1e-9  # s
 SINKING_SPEED = 0.5  # m/s: a golf ball sinks at 0.4, so a slower one has lost what it came with
 DEEPEST = 5.0  # m below the surface: deeper down no ball is followed
 
@@ -127,16 +127,19 @@ def only_sinks(land: Land, ball: BallRecord, place: Vector, v: Vector) -> bool:
 
 @kernel
 def sinking_time(land: Land, ball: BallRecord, until: float) -> float:
-    """First time on the segment, at most `until`, at which the ball only sinks or floats."""
+    """Time on the segment from which the ball only sinks or floats; `until` if it does not then.
+
+    It is at most `until`, and up to 2 LATE late.
+    """
     place, v = segment.position(ball, until), segment.velocity(ball, until)
     if not only_sinks(land, ball, place, v):
         return until
     before, after = 0.0, until
-    while after - before > SAME_TIME:
+    while after - before > LATE:
         middle = 0.5 * (before + after)
         place, v = segment.position(ball, middle), segment.velocity(ball, middle)
         if only_sinks(land, ball, place, v):
             after = middle
         else:
             before = middle
-    return min(after + SAME_TIME, until)
+    return min(after + LATE, until)

@@ -59,9 +59,12 @@ def kept(build: Callable) -> Callable:
 def fingerprint(value: Any) -> Hashable:
     """Return a hashable value that is equal for records, tuples and arrays of equal content."""
     if isinstance(value, np.ndarray):
-        whole = value.tobytes()
-        if len(whole) > LARGE:
-            whole = blake2b(whole).digest()
+        if value.dtype.hasobject:
+            raise TypeError(f'an array of {value.dtype} has no bytes to compare')
+        if value.nbytes > LARGE:
+            whole = blake2b(np.ascontiguousarray(value).view(np.uint8).data).digest()
+        else:
+            whole = value.tobytes()
         return value.dtype.str, value.shape, whole
     if isinstance(value, dict):
         return dict, fingerprint(tuple(value.items()))

@@ -37,8 +37,7 @@ from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
 KEPT = 7  # row of ``stages`` that no stage is in
-GRIP_MARGIN = 1.05
-LEAST_FRICTION = 1e-9  # coefficient: less counts as none
+GRIP_MARGIN = 1.05  # times dynamic friction: what may slow a rolling ball's spin (an estimate)
 STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is only stiff
 
 # Distance [m] of a place from the surface that supports a ball, the normal there, and its rate of
@@ -73,7 +72,8 @@ def rolling_deceleration(material: MaterialRecord, press: float, needed: float) 
     """Deceleration [m/s^2] of a rolling ball: rolling resistance, as far as grip allows.
 
     Friction has to brake the ball, and to turn it as it speeds up downhill, or as long grass slows
-    it, for which it is `needed`: see `rolling_needs`.
+    it, for which it is `needed`: see `rolling_needs`. The two are added as if they never opposed
+    each other, so that nothing of the resistance is left where the ball begins to slip.
     """
     return min(
         material['rolling_resistance'] * press,
@@ -101,9 +101,10 @@ def growth_rate(material: MaterialRecord, press: float) -> float:
 def rolling_needs(
     material: MaterialRecord, press: float, downhill: Vector, velocity: Vector, inertia: float
 ) -> float:
-    """Friction over mass [m/s^2] that turns a ball as it rolls on a plane without slip.
+    """Static friction over mass [m/s^2] that a ball needs to roll on a plane without slip.
 
-    It turns the ball faster down the slope, and slower against what grows of the resistance.
+    It turns the ball faster down the slope, and slower as the resistance that grows with speed
+    slows it.
     """
     growing = growing_needs(material, press, velocity, inertia)
     if growing == 0.0:
@@ -116,16 +117,19 @@ def rolling_needs(
 def growing_needs(
     material: MaterialRecord, press: float, velocity: Vector, inertia: float
 ) -> float:
-    """Friction over mass and speed [1/s] that slows a rolling ball's spin as its centre is slowed.
+    """Static friction over mass and speed [1/s] that slows a rolling ball's spin with its centre.
 
-    Of the resistance that grows with speed. It may exceed dynamic friction by GRIP_MARGIN, and so
-    counts by the ratio of static friction to that: up to static friction a ball that slips by
-    nothing would go on to slip or would not, by luck, over a wide range of speeds.
+    The resistance that grows with speed slows the centre; friction slows the spin by k times that.
+    It may be GRIP_MARGIN times dynamic friction at most, so it is counted as the share of static
+    friction that it is of that: up to static friction, balls alike but for the least slip would
+    part over a wide range of speeds.
     """
     growing = inertia * growth_rate(material, press) * length(velocity)
     if growing == 0.0:
         return 0.0
-    most = max(GRIP_MARGIN * material['dynamic_friction'], LEAST_FRICTION)
+    most = GRIP_MARGIN * material['dynamic_friction']
+    if most == 0.0:
+        return growing
     return growing * max(material['static_friction'] / most, 1.0)
 
 
