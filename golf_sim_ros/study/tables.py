@@ -21,7 +21,7 @@ import numpy as np
 
 from .against_scipy import OURS, ScipyRow
 from .effects import EffectRow
-from .grounds import GroundRow, PLANE
+from .grounds import GroundRow, PLANE, SHOTS
 from .measure import Row
 from .promises import PromiseRow
 from .sizes import SizeRow
@@ -166,8 +166,7 @@ def beyond_promise(rows: Sequence[GroundRow]) -> str:
 
 def left_out(rows: Sequence[GroundRow]) -> int:
     """Find how many shots of a volley the reference did not bring to an end, at most."""
-    counts = [row.shots for row in rows]
-    return max(counts) - min(counts)
+    return SHOTS - min(row.shots for row in rows)
 
 
 def best_at(rows: Sequence[ScipyRow], level: float) -> ScipyRow | None:
