@@ -126,9 +126,9 @@ def border_crossing_time(
 ) -> tuple[float, bool]:
     """First time before `until` at which the segment, moved by `shift`, is across `border`.
 
-    And whether it gets there; see `first_border_crossing`. The time is that at which it is BEYOND
-    the border, however obliquely it crosses: there what it is on can be told. A segment that
-    starts on the border has crossed it already.
+    And whether it gets there; see `first_border_crossing`. Where it crosses so obliquely that
+    LOOK_AHEAD does not tell what is there, the time is that at which it is BEYOND the border. A
+    segment that starts on the border has crossed it already.
     """
     time = 0.0
     start = add(position(ball, 0.0), shift)
@@ -147,6 +147,8 @@ def border_crossing_time(
         if gap <= TOUCH:  # on the line there is no direction from it: the approach decides
             if rate >= 0.0:
                 return until, False
+            if -rate * surfaces.LOOK_AHEAD > BEYOND * length(velocity(ball, time)):
+                return time, True
             across = time + BEYOND / -rate
             return across if across < until else time, True
         rate = dot(direction, velocity(ball, time))
