@@ -14,7 +14,6 @@
 
 """Recorded shots, run again: whether they are the same to the bit, and where they differ first."""
 
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
 import json
 from math import ceil
@@ -330,17 +329,25 @@ def other_impacts(
 ) -> Iterator[Difference]:
     """Differences between recorded collisions and those of the `Rerun`; some may not be recorded.
 
-    At one instant there may be several, as with the surfaces of a corner.
+    At one instant there may be several, as with the surfaces of a corner. Where none is at the
+    recorded one to the bit, those count that rounding may have moved.
     """
     strike = shot.strike
-    happened: dict[tuple[float, str], list[tuple[int, Entry]]] = defaultdict(list)
-    for number, impact in again.impacts:
-        happened[impact.time, impact.kind].append((number, json.loads(collision_text(impact))))
+    happened = [
+        (impact.time, number, json.loads(collision_text(impact)))
+        for number, impact in again.impacts
+    ]
     end = strike['time'] + (again.end - strike['tick'] + 0.5) * tick
     for told in recording.collisions:
         if told['ball'] == strike['ball'] and strike['time'] <= told['time'] <= end:
             number = strike['tick'] + ceil((told['time'] - strike['time']) / tick)
-            at_once = happened[told['time'], told['kind']] or [(number, {})]
+            of_kind = [one for one in happened if one[2]['kind'] == told['kind']]
+            at_once = [(n, now) for time, n, now in of_kind if time == told['time']] or [
+                (n, now)
+                for time, n, now in of_kind
+                if abs(time - told['time']) <= CLOSE * max(1.0, told['time'])
+            ]
+            at_once = at_once or [(number, {})]
             number, now = next(
                 (one for one in at_once if told.items() <= one[1].items()), at_once[0]
             )

@@ -96,3 +96,15 @@ def test_five_balls_lean_on_each_other():
     last = [entry for entry in recording.journal if entry['kind'] == 'rest']
     assert sum(entry['state']['position'][2] > 0.0 for entry in last) == 0
     assert len({entry['ball'] for entry in last}) == 5
+
+
+def test_an_impact_that_rounding_has_moved_is_the_same_impact():
+    (recording,) = read_bag(BAGS / 'one_ball')
+    world, tick = world_of(recording), tick_of(recording)
+    shot = shots(recording)[0]
+    again = rerun(world, shot, tick)
+    for by, same in ((1e-13, True), (1e-3, False)):
+        moved = [{**told, 'time': told['time'] + by} for told in recording.collisions]
+        other = recording._replace(collisions=moved)
+        assert (difference(other, shot, again, exact=False) is None) == same
+        assert difference(other, shot, again, exact=True) is not None
