@@ -101,7 +101,7 @@ def growth_rate(material: MaterialRecord, press: float) -> float:
 def rolling_needs(
     material: MaterialRecord, press: float, downhill: Vector, velocity: Vector, inertia: float
 ) -> float:
-    """Static friction over mass [m/s^2] that a ball needs to roll on a plane without slip.
+    """Return the static friction over mass [m/s^2] that a ball needs to roll on a plane.
 
     It turns the ball faster down the slope, and slower as the resistance that grows with speed
     slows it.
@@ -117,7 +117,7 @@ def rolling_needs(
 def growing_needs(
     material: MaterialRecord, press: float, velocity: Vector, inertia: float
 ) -> float:
-    """Static friction over mass and speed [1/s] that slows a rolling ball's spin with its centre.
+    """Return the static friction over mass and speed [1/s] that slows spin with the centre.
 
     The resistance that grows with speed slows the centre; friction slows the spin by k times that.
     It may be GRIP_MARGIN times dynamic friction at most, so it is counted as the share of static
