@@ -329,8 +329,9 @@ def other_impacts(
 ) -> Iterator[Difference]:
     """Differences between recorded collisions and those of the `Rerun`; some may not be recorded.
 
-    At one instant there may be several, as with the surfaces of a corner. Where none is at the
-    recorded one to the bit, those count that rounding may have moved.
+    A recorded collision is held against one of its kind at its time or, where there is none, at a
+    time that differs by rounding. Of several at once, as with the surfaces of a corner, it is held
+    against the one that is most like it.
     """
     strike = shot.strike
     happened = [
@@ -347,15 +348,13 @@ def other_impacts(
                 for time, n, now in of_kind
                 if abs(time - told['time']) <= CLOSE * max(1.0, told['time'])
             ]
-            at_once = at_once or [(number, {})]
-            number, now = next(
-                (one for one in at_once if told.items() <= one[1].items()), at_once[0]
+            yield from min(
+                (
+                    list(differences(n, 'a collision', told, now))
+                    for n, now in at_once or [(number, {})]
+                ),
+                key=lambda found: (sum(not are_close(one) for one in found), len(found)),
             )
-            for field in told:
-                if told[field] != now.get(field):
-                    yield Difference(
-                        number, f'{field} of a collision', told[field], now.get(field)
-                    )
 
 
 def other_end(recording: Recording, shot: Shot, again: Rerun) -> Iterator[Difference]:
@@ -366,7 +365,7 @@ def other_end(recording: Recording, shot: Shot, again: Rerun) -> Iterator[Differ
     result = next((one for one in recording.results if one['shot'] == shot.strike['shot']), None)
     if result:
         now = json.loads(result_text(ended, result['shot']))
-        yield from differences(again.end, 'result', result, now)
+        yield from differences(again.end, 'the result', result, now)
     if shot.rest:
         rest = shot.rest
         # Older versions wrote an end within the strike at the tick after it.
@@ -374,7 +373,7 @@ def other_end(recording: Recording, shot: Shot, again: Rerun) -> Iterator[Differ
         now = {'tick': again.end + at_once, 'status': ended.status, **standing(again.rest)}
         told = {'tick': rest['tick'], 'status': rest['status'], **rest['state']}
         yield from differences(
-            min(again.end, rest['tick']), 'rest', told, json.loads(json.dumps(now))
+            min(again.end, rest['tick']), 'the rest', told, json.loads(json.dumps(now))
         )
 
 
@@ -385,7 +384,7 @@ def differences(tick: int, of: str, told: Entry, now: Entry) -> Iterator[Differe
     """
     for field in told:
         if told[field] != now.get(field):
-            yield Difference(tick, f'{field} of the {of}', told[field], now.get(field))
+            yield Difference(tick, f'{field} of {of}', told[field], now.get(field))
 
 
 def timed(

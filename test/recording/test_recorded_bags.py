@@ -108,3 +108,19 @@ def test_an_impact_that_rounding_has_moved_is_the_same_impact():
         other = recording._replace(collisions=moved)
         assert (difference(other, shot, again, exact=False) is None) == same
         assert difference(other, shot, again, exact=True) is not None
+
+
+def test_of_impacts_at_one_instant_the_one_most_like_the_recorded_is_the_same():
+    (recording,) = read_bag(BAGS / 'one_ball')
+    world, tick = world_of(recording), tick_of(recording)
+    shot = shots(recording)[0]
+    again = rerun(world, shot, tick)
+    number, first = again.impacts[0]
+    other = first._replace(normal=(1.0, 0.0, 0.0), with_='wall')
+    for by in (0.0, 1e-13):
+        moved = [{**told, 'time': told['time'] + by} for told in recording.collisions]
+        both = again._replace(impacts=[(number, other), *again.impacts])
+        assert difference(recording._replace(collisions=moved), shot, both, exact=False) is None
+        alone = again._replace(impacts=[(number, other), *again.impacts[1:]])
+        found = difference(recording._replace(collisions=moved), shot, alone, exact=False)
+        assert found.field == 'with of a collision'
