@@ -21,6 +21,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from .grounds import ends
 from .methods import TRUTH
 from .scenes import EFFECTS, level
 from ..course import load_course
@@ -63,11 +64,11 @@ def jobs(material: Material, count: int = SHOTS) -> list[Callable[[], PromiseRow
         ('level', level(material), EFFECTS),
         (RELIEF, load_course(RELIEF), 'auto'),
     )
-    ends = [
+    plays = [
         (ground, lru_cache(partial(played, course, effects, count)))
         for ground, course, effects in grounds
     ]
-    return [partial(kept, ground, of, name) for ground, of in ends for name in ACCURACY]
+    return [partial(kept, ground, play, name) for ground, play in plays for name in ACCURACY]
 
 
 def random_shots(count: int, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
@@ -89,17 +90,14 @@ def played(
 
     Returns first touches (n, 2), along the launch and across, and rests (n, 3) [m].
     """
-    told = simulate_many(course, *random_shots(count), effects=effects, accuracy=accuracy)
-    side = told['carry_side']
-    along = np.sqrt(np.maximum(told['carry'] ** 2 - side**2, 0.0))
-    return np.transpose([along, side]), told['position']
+    return ends(simulate_many(course, *random_shots(count), effects=effects, accuracy=accuracy))
 
 
-def kept(ground: str, ends: Ends, name: str) -> PromiseRow:
-    """`PromiseRow` of a preset on a ground; ``ends(accuracy)`` gives what `played` does."""
+def kept(ground: str, play: Ends, name: str) -> PromiseRow:
+    """`PromiseRow` of a preset on a ground; ``play(accuracy)`` gives what `played` does."""
     preset = ACCURACY[name]
     touch, rest = (
-        np.linalg.norm(mine - true, axis=1) for mine, true in zip(ends(name), ends(TRUTH))
+        np.linalg.norm(mine - true, axis=1) for mine, true in zip(play(name), play(TRUTH))
     )
     return PromiseRow(
         ground, name, len(touch), *spread(touch, preset.touch), *spread(rest, preset.rest)
