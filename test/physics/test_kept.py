@@ -18,6 +18,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pickle
 
 from golf_sim_ros.physics import Course, Heightmap, Plane
+from golf_sim_ros.physics.scene import kept as kept_module
 from golf_sim_ros.physics.scene import kernel_model
 from golf_sim_ros.physics.scene.kept import fingerprint, kept, MOST_KEPT
 import numpy as np
@@ -66,6 +67,21 @@ def test_fingerprints_are_of_content():
     assert fingerprint(one) == fingerprint(np.arange(12.0)[::2] / 2.0)
     others = (one.reshape(2, 3), one.astype('float32'), one[::-1], [*one], {'heights': one})
     assert len({fingerprint(one), *map(fingerprint, others)}) == 1 + len(others)
+
+
+def test_large_arrays_are_told_apart_by_their_digests(monkeypatch):
+    monkeypatch.setattr(kept_module, 'LARGE', 8)
+    one = np.arange(6.0)
+    other = one.copy()
+    other[5] = np.nextafter(5.0, 6.0)
+    assert fingerprint(one) == fingerprint(np.arange(12.0)[::2] / 2.0)
+    assert fingerprint(one) != fingerprint(other)
+    assert len(fingerprint(one)[2]) == len(fingerprint(np.zeros(1000))[2])
+
+
+def test_arrays_of_objects_have_no_fingerprint():
+    with pytest.raises(TypeError, match='object'):
+        fingerprint(np.array([[1.0], 'a'], object))
 
 
 def test_the_last_ones_used_are_kept():
