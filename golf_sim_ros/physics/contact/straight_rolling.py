@@ -40,7 +40,7 @@ from ..trajectory.equations_of_motion import (
 from ..trajectory.segment import fit_segment, position
 
 LEAST_GROWTH = 1e-6  # of the growth of resistance: a closed form with less is not exact
-SAME_GRIP = 1e-9  # of the resistance: grip that is short by less is taken as enough
+SAME_GRIP = 1e-9  # of the resistance: grip that falls short by less is taken as enough
 
 # Deceleration at rest [m/s^2], and its growth with the square of the speed [1/m].
 Braking = tuple[float, float]

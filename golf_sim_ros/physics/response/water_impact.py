@@ -37,7 +37,7 @@ ALONG_KEPT = 0.7
 UPWARD_KEPT = 0.6
 SPIN_KEPT = 0.5
 DEEP = 2.0  # radii below the surface: the ball is well under water
-LATE = 1e-9  # s
+LATE = 1e-9  # s: how exactly the time is found from which a ball only sinks
 SINKING_SPEED = 0.5  # m/s: a golf ball sinks at 0.4, so a slower one has lost what it came with
 DEEPEST = 5.0  # m below the surface: deeper down no ball is followed
 

@@ -119,10 +119,10 @@ def growing_needs(
 ) -> float:
     """Return the static friction over mass and speed [1/s] that slows spin with the centre.
 
-    The resistance that grows with speed slows the centre; friction slows the spin by k times that.
-    It may be GRIP_MARGIN times dynamic friction at most, so it is counted as the share of static
-    friction that it is of that: up to static friction, balls alike but for the least slip would
-    part over a wide range of speeds.
+    The resistance that grows with speed slows the centre; friction, of k times that, slows the
+    spin. The ball rolls while that is within GRIP_MARGIN times dynamic friction, not within static
+    friction: else balls alike but for the least slip would part over a wide range of speeds. So
+    the need is scaled up, by static friction over that limit.
     """
     growing = inertia * growth_rate(material, press) * length(velocity)
     if growing == 0.0:
