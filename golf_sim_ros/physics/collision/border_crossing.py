@@ -39,8 +39,8 @@ def first_border_crossing(
 ) -> tuple[float, bool]:
     """First time, at most `until`, at which the segment crosses a border in plan; whether it does.
 
-    Up to a time at which it does not none is crossed, and further the search did not come. What
-    crosses is the ball's foot, its lowest point along the normal: there it is supported.
+    Where it crosses none, the time is that up to which it was searched. What crosses is the ball's
+    foot, its lowest point along the normal: there it is supported.
     """
     best = until
     crosses = False
@@ -102,7 +102,7 @@ def limit_crossing_time(
 ) -> tuple[float, bool]:
     """First time before `until` at which the segment leaves through the line at `point`.
 
-    And whether it does; see `first_border_crossing`.
+    And whether it leaves; if not, the time up to which it was searched.
     """
     time = 0.0
     bend = max(0.0, -least_acceleration(ball, inward))
@@ -126,9 +126,9 @@ def border_crossing_time(
 ) -> tuple[float, bool]:
     """First time before `until` at which the segment, moved by `shift`, is across `border`.
 
-    And whether it gets there; see `first_border_crossing`. Where it crosses so obliquely that
-    LOOK_AHEAD does not tell what is there, the time is that at which it is BEYOND the border. A
-    segment that starts on the border has crossed it already.
+    And whether it crosses; if not, the time up to which it was searched. Where it crosses so
+    obliquely that LOOK_AHEAD does not tell what is there, the time is that at which it is BEYOND
+    the border. A segment that starts on the border has crossed it already.
     """
     time = 0.0
     start = add(position(ball, 0.0), shift)
