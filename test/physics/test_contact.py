@@ -407,7 +407,7 @@ def beyond(place, heading, angle, far=30.0):
 
 @pytest.mark.parametrize('ground', ['plane', 'height map'])
 @pytest.mark.parametrize('phase', ['rolls', 'slides'])
-@pytest.mark.parametrize('angle', [0.5 * pi, 1.0, 0.01, 1e-4, 1e-5])
+@pytest.mark.parametrize('angle', [0.5 * pi, 1.0, 0.01, 1e-4, 1e-5, 1e-6])
 def test_a_ball_is_braked_by_what_it_is_on_wherever_the_border_lies(ground, phase, angle):
     slow = HARD._replace(name='slow', rolling_resistance=0.3, dynamic_friction=0.3)
     random = np.random.default_rng(4)
@@ -433,6 +433,26 @@ def test_a_ball_is_braked_by_what_it_is_on_wherever_the_border_lies(ground, phas
         # A nanometre across an oblique border is a tenth of a millimetre along it.
         within = 2e-6 + 4e-9 / angle
         assert np.linalg.norm(world['ball'].position[:2]) == pytest.approx(expected, abs=within)
+
+
+@pytest.mark.parametrize('ground', ['plane', 'height map'])
+@pytest.mark.parametrize('heading', [0.0, 1.0, pi - 1.0, pi])
+@pytest.mark.parametrize('zone_heading', [0.0, pi])
+def test_a_ball_that_starts_on_a_border_is_braked_by_what_it_rolls_onto(
+    ground, heading, zone_heading
+):
+    slow = HARD._replace(name='slow', rolling_resistance=0.3)
+    heights = Heightmap(np.zeros((21, 21)), (-10.0, -10.0), 1.0, HARD)
+    shape = Plane(material=HARD) if ground == 'plane' else heights
+    zone = slow, beyond(np.zeros(2), zone_heading, 0.5 * pi)
+    world = World(Course((shape,), zones=(zone,)), effects=GRAVITY, engine='python')
+    ahead = np.array((cos(heading), sin(heading), 0.0))
+    spin = np.cross((0.0, 0.0, 1.0), ahead) / RADIUS
+    world.place('ball', (0.0, 0.0, RADIUS), ahead, spin)
+    world.advance(30.0)
+    onto = slow if cos(heading - zone_heading) > 0.0 else HARD
+    expected = 0.5 / (onto.rolling_resistance * G)
+    assert np.linalg.norm(world['ball'].position[:2]) == pytest.approx(expected, abs=2e-6)
 
 
 def test_a_rolling_ball_does_not_turn_about_the_normal():

@@ -242,6 +242,7 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     if ends or ahead == ZERO:  # else it is heading where it was
         goes_on = flat_ground_goes_on(land, ball)
     ball['on_flat'] = 1 if goes_on else 0
+    ball['material'] = contact_material_number(land, ball, ball['support'], normal)
     if goes_on:
         surface = land.ball.radius, normal, ZERO
         if not is_in_still_air(land, ball, now):
@@ -253,7 +254,6 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
         else:
             curved_segment(model, ball, now, surface)
         return ON_FLAT
-    ball['material'] = contact_material_number(land, ball, ball['support'], normal)
     place, v = load(ball['position']), load(ball['velocity'])
     curved_segment(model, ball, now, turning_surface(land, ball, place, v))
     return ON_EDGE
