@@ -19,6 +19,7 @@ The bound itself is half a minute of plain Python, so that these play with less.
 
 from golf_sim_ros.physics import (
     Course,
+    Heightmap,
     Material,
     Patch,
     Plane,
@@ -106,3 +107,20 @@ def test_what_two_surfaces_hold_adds_nothing_up():
     for _ in range(2):
         assert world.advance(0.03) == []
         assert 0 < world._balls['segments_spent'][0] < 100
+
+
+@pytest.mark.parametrize('speed', [1e-3, 1e-5, 1e-7])
+@pytest.mark.parametrize('friction, lift', [(0.0, 0.0), (0.0, 1e-4), (0.5, 1.5e-5), (0.5, 1e-3)])
+def test_slow_rolling_that_nothing_brakes_takes_few_segments(speed, friction, lift, monkeypatch):
+    """Without grip, or in micro-bounces, rolling resistance has nothing to brake with."""
+    monkeypatch.setattr(shot_, 'SUSTAINED_WORK', 0.0)
+    turf = Material('turf', Restitution(0.5), 0.0, friction, friction, 0.1)
+    heights = Heightmap(np.zeros((21, 21)), (-10.0, -10.0), 1.0, turf)
+    world = World(Course((heights,), effects=('gravity',)), engine='python')
+    height = world['ball'].position[2]
+    spin = (0.0, speed / height, 0.0)
+    world.place('ball', (0.0, 0.0, height + lift), (speed, 0.0, 0.0), spin)
+    world.advance(1.0)
+    assert world._balls['segments_spent'][0] < 100
+    if friction == 0.0:
+        assert world['ball'].position[0] == pytest.approx(speed, rel=1e-9)

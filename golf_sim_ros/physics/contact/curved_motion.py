@@ -41,6 +41,7 @@ from ..trajectory.equations_of_motion import (
     LEAST_SPEED,
     material_under,
     rates_on,
+    rolling_deceleration,
     supporting_surface,
     turning_surface,
     TurningSurface,
@@ -102,9 +103,9 @@ def curved_segment(
     if load(ball['velocity']) != v:
         v = load(ball['velocity'])
         surface = turning_surface(land, ball, place, v)
-    force, torque, press, _ = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
+    force, torque, press, needed = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
     store_stage(ball, 0, v, force, torque)
-    change = time_to_change(land, ball, force, press)
+    change = time_to_change(land, ball, force, press, needed)
     wanted = ball['step'] if ball['step'] > 0.0 and ball['phase'] == phase else FIRST_STEP
     asked = h = min(wanted, longest_contact_step(land, ball, press, surface[2], change))
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
@@ -257,8 +258,14 @@ def longest_contact_step(
 
 
 @shared
-def time_to_change(land: Land, ball: BallRecord, force: Vector, press: float) -> float:
-    """Estimate of the time [s] until slip ends, or until a braked ball stops."""
+def time_to_change(
+    land: Land, ball: BallRecord, force: Vector, press: float, needed: float
+) -> float:
+    """Estimate of the time [s] until slip ends, or until a braked ball stops.
+
+    Friction to roll that is `needed` is not there to brake; without grip, and in micro-bounces,
+    nothing brakes a ball that rolls.
+    """
     v = load(ball['velocity'])
     material = material_under(land, ball)
     if ball['phase'] == SLIDE:
@@ -269,12 +276,13 @@ def time_to_change(land: Land, ball: BallRecord, force: Vector, press: float) ->
         growing = (1.0 + land.ball.inertia) * growth_rate(material, press) * length(v)
         losing += growing * dot(v, u) / length(u)
         return length(u) / losing if losing > 0.0 else inf
-    slowing = -dot(force, v)
-    if material['rolling_resistance'] == 0.0 or length(v) <= LEAST_SPEED:
+    resistance = rolling_deceleration(material, press, needed)
+    if resistance <= 0.0 or length(v) <= LEAST_SPEED or in_micro_bounces(ball, ball['begin']):
         return inf
+    slowing = -dot(force, v)
     # The direction of motion changes at the rate of resistance over speed, even where a slope
     # nearly balances the resistance along it.
-    braked = length(v) / (material['rolling_resistance'] * max(press, 1e-3))
+    braked = length(v) / resistance
     return min(braked, dot(v, v) / slowing) if slowing > 0.0 else braked
 
 
