@@ -16,7 +16,7 @@
 
 import csv
 from functools import lru_cache
-from math import atan, log, pi, sqrt
+from math import atan, cos, log, pi, sin, sqrt
 from pathlib import Path
 
 from driving_range import launched, level
@@ -315,6 +315,39 @@ def test_grass_brakes_the_centre_of_a_ball_that_slides(accuracy, speed, backspin
     expected = slid_out(speed, -course.ball.radius * backspin)
     found = rest_on(course, (speed, 0, 0), (0, -backspin, 0), accuracy)
     within = {'reference': 1e-6, 'standard': 1e-4, 'sketch': 1e-3}  # sketch's paths err by 0.01 mm
+    assert abs(found[0] - expected) < within[accuracy]
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+@pytest.mark.parametrize('speed', [0.0, -1e-8, -2.0])
+def test_a_ball_that_a_slope_drives_is_braked_by_grass_however_slow_it_begins(accuracy, speed):
+    fall = 0.3
+    course = Course((Plane(normal=(sin(fall), 0.0, cos(fall)), material=GRASS),))
+    down = np.array((cos(fall), 0.0, -sin(fall)))
+    press, pull = GRAVITY * cos(fall), 5 / 7 * GRAVITY * sin(fall)
+
+    def rates(_, state):
+        v = state[1]
+        return v, pull - np.copysign(0.13 * press * (1.0 + 0.07 * v * v), v)
+
+    world = World(course, effects=('gravity',), accuracy=accuracy, engine='python')
+    start = np.array(world['ball'].position)
+    radius = course.ball.radius
+    world.place('ball', start, speed * down, (0.0, speed / radius, 0.0))
+    world.advance(9.0)
+    exact = solve_ivp(rates, (0.0, 9.0), (0.0, speed), rtol=1e-12, atol=1e-12, max_step=0.01)
+    way = (np.array(world['ball'].position) - start) @ down
+    within = {'reference': 1e-5, 'standard': 1e-2, 'sketch': 0.1}[accuracy]
+    assert abs(way - exact.y[0, -1]) < within
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
+@pytest.mark.parametrize('speed', [0.0, 1e-8])
+def test_grass_brakes_a_ball_that_only_its_spin_drives(accuracy, speed):
+    course = level(GRASS)
+    expected = slid_out(speed, 1500.0 * course.ball.radius)
+    found = rest_on(course, (speed, 0, 0), (0, 1500.0, 0), accuracy)
+    within = {'reference': 1e-6, 'standard': 1e-4, 'sketch': 1e-3}
     assert abs(found[0] - expected) < within[accuracy]
 
 

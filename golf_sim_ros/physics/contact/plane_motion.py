@@ -81,7 +81,9 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
     the change of the deceleration over that time moves it by less than a path may be off.
     """
     material = material_under(land, ball)
-    if material['resistance_growth'] == 0.0 or in_micro_bounces(ball, now):
+    if material['resistance_growth'] * material['rolling_resistance'] == 0.0 or in_micro_bounces(
+        ball, now
+    ):
         return True
     normal = load(ball['normal'])
     press, downhill = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
@@ -98,12 +100,16 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
         if losing < LEAST_BRAKE:
             return False
         time = length(u) / losing
-        change = 2.0 * growth * (braking + growth * dot(v, v)) * length(v) * time
+        # Slip that ends leaves it faster, or slower: in between it is no faster than at both ends.
+        fastest = max(length(v), length(add_scaled(v, -k / (1.0 + k), u)))
+        change = 2.0 * growth * (braking + growth * fastest * fastest) * fastest * time
     else:
         needed = rolling_needs(material, press, downhill, v, k)
         if needed > material['static_friction'] * press:
             return False
         braking = material['rolling_resistance'] * press - length(downhill) / (1.0 + k)
+        if braking < -LEAST_BRAKE:  # it does not stop: a slope drives it
+            return False
         time = length(v) / max(braking, LEAST_BRAKE)
         change = max(growth * dot(v, v), growing_needs(material, press, v, k) * length(v))
     return change * time * time <= EVENLY * land.limits.path
