@@ -17,6 +17,8 @@
 The bound itself is half a minute of plain Python, so that these play with less.
 """
 
+from math import atan, cos, sin, tan
+
 from golf_sim_ros.physics import (
     Course,
     Heightmap,
@@ -29,6 +31,7 @@ from golf_sim_ros.physics import (
     simulate_many,
     World,
 )
+from golf_sim_ros.physics.properties.material import STANDARD_GRAVITY
 from golf_sim_ros.physics.trajectory import shot_record as shot_
 import numpy as np
 from other_process import run
@@ -124,3 +127,28 @@ def test_slow_rolling_that_nothing_brakes_takes_few_segments(speed, friction, li
     assert world._balls['segments_spent'][0] < 100
     if friction == 0.0:
         assert world['ball'].position[0] == pytest.approx(speed, rel=1e-9)
+
+
+@pytest.mark.parametrize('excess', [1e-2, 1e-3, 1e-5, -1e-5])
+@pytest.mark.parametrize('aside', [0.0, 1e-4])
+def test_a_slope_that_hardly_drives_a_ball_takes_few_segments(excess, aside, monkeypatch):
+    """The direction of a slow ball is stiff: resistance turns it within speed over resistance."""
+    monkeypatch.setattr(shot_, 'SUSTAINED_WORK', 0.0)
+    resistance, speed, time = 0.05, 0.0 if excess > 0.0 else 1e-3, 0.5
+    turf = Material('turf', Restitution(0.5), 0.0, 0.5, 0.4, resistance)
+    # The component of weight along the slope, 5/7 of it, over resistance: 1 + excess.
+    tilt = atan(1.4 * resistance * (1.0 + excess))
+    x = np.arange(-10.0, 11.0)
+    heights = Heightmap(np.tile(-tan(tilt) * x, (21, 1)), (-10.0, -10.0), 1.0, turf)
+    world = World(Course((heights,), effects=('gravity',)), engine='python')
+    start, radius = np.array(world['ball'].position), world['ball'].position[2] * cos(tilt)
+    down, normal = np.array((cos(tilt), 0.0, -sin(tilt))), np.array((sin(tilt), 0.0, cos(tilt)))
+    velocity = speed * down + (0.0, aside, 0.0)
+    world.place('ball', start, velocity, np.cross(normal, velocity) / radius)
+    world.advance(time)
+    assert world._balls['segments_spent'][0] < 150
+    net = resistance * STANDARD_GRAVITY * cos(tilt) * excess
+    within = 1e-6 + aside * time
+    assert (np.array(world['ball'].position) - start) @ down == pytest.approx(
+        speed * time + 0.5 * net * time**2, abs=within
+    )

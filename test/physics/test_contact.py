@@ -455,6 +455,22 @@ def test_a_ball_that_starts_on_a_border_is_braked_by_what_it_rolls_onto(
     assert np.linalg.norm(world['ball'].position[:2]) == pytest.approx(expected, abs=2e-6)
 
 
+@pytest.mark.parametrize('shift', [-1e-13, 1e-13])
+@pytest.mark.parametrize('uphill', [True, False])
+def test_a_ball_put_on_a_border_of_a_slope_rests_if_what_is_below_holds_it(uphill, shift):
+    slick = HARD._replace(name='slick', rolling_resistance=0.05)
+    tilt = 0.1
+    foot = -RADIUS * sin(tilt) + shift
+    far = -9.0 if uphill else 9.0
+    zone = ((foot, -9.0), (foot, 9.0), (far, 9.0), (far, -9.0))
+    ground = slope(tilt, slick).ground
+    # The slope falls towards +x: HARD, which holds, is above the border or below.
+    world = World(Course(ground, zones=((HARD, zone),), tee=(5.0, 5.0)), effects=GRAVITY)
+    world.place('ball', (0.0, 0.0))
+    world.advance(1.0)
+    assert (world['ball'].phase == Phase.REST) == (not uphill)
+
+
 def test_a_rolling_ball_does_not_turn_about_the_normal():
     normal = np.array((sin(0.05), 0, cos(0.05)))
     world = World(slope(0.05, HARD), effects=GRAVITY, accuracy='reference')

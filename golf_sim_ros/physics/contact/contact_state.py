@@ -98,13 +98,25 @@ def heading(land: Land, ball: BallRecord) -> Vector:
 
 
 @kernel
+def update_material(land: Land, ball: BallRecord) -> None:
+    """Look up the material that the ball is on: on a border, what it heads for.
+
+    Writes material.
+    """
+    foot = add_scaled(load(ball['position']), -land.ball.radius, load(ball['normal']))
+    ahead = add_scaled(foot, surfaces.LOOK_AHEAD, heading(land, ball))
+    ball['material'] = surfaces.material_of(land.ground, ball['support'], ahead)
+
+
+@kernel
 def touch_down(land: Land, ball: BallRecord, now: float) -> None:
     """Let the ball go on along its support, where it slides at first.
 
-    Writes phase, step, velocity and spin.
+    Writes phase, step, material, velocity and spin.
     """
     ball['step'] = 0.0  # that of the flight says nothing
     begin_sliding(ball)
+    update_material(land, ball)
     choose_contact_mode(land, ball, now)
 
 

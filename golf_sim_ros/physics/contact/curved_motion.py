@@ -41,7 +41,6 @@ from ..trajectory.equations_of_motion import (
     LEAST_SPEED,
     material_under,
     rates_on,
-    rolling_deceleration,
     supporting_surface,
     turning_surface,
     TurningSurface,
@@ -87,7 +86,7 @@ def curved_segment(
     place = load(ball['position'])
     v = load(ball['velocity'])
     w = load(ball['spin'])
-    force, _, press, needed = rates_on(land, ball, surface, (place, v, w))
+    force, _, press, needed, _ = rates_on(land, ball, surface, (place, v, w))
     # The air is asked only where the weight does not hold the ball: see `press_with_air`.
     holding = press if press > 0.0 else press_with_air(model, surface, place, v, w)
     if holding <= 0.0:
@@ -103,9 +102,9 @@ def curved_segment(
     if load(ball['velocity']) != v:
         v = load(ball['velocity'])
         surface = turning_surface(land, ball, place, v)
-    force, torque, press, needed = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
+    force, torque, press, _, time = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
     store_stage(ball, 0, v, force, torque)
-    change = time_to_change(land, ball, force, press, needed)
+    change = time_to_change(land, ball, force, press, time)
     wanted = ball['step'] if ball['step'] > 0.0 and ball['phase'] == phase else FIRST_STEP
     asked = h = min(wanted, longest_contact_step(land, ball, press, surface[2], change))
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
@@ -259,16 +258,16 @@ def longest_contact_step(
 
 @shared
 def time_to_change(
-    land: Land, ball: BallRecord, force: Vector, press: float, needed: float
+    land: Land, ball: BallRecord, force: Vector, press: float, braking: float
 ) -> float:
     """Estimate of the time [s] until slip ends, or until a braked ball stops.
 
-    Friction to roll that is `needed` is not there to brake; without grip, and in micro-bounces,
-    nothing brakes a ball that rolls.
+    `braking` is the time in which constant resistance stops a ball that rolls, or turns its
+    motion, which it does even where a slope nearly balances it along the way.
     """
     v = load(ball['velocity'])
-    material = material_under(land, ball)
     if ball['phase'] == SLIDE:
+        material = material_under(land, ball)
         u = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
         if length(u) <= LEAST_SPEED:
             return inf
@@ -276,14 +275,8 @@ def time_to_change(
         growing = (1.0 + land.ball.inertia) * growth_rate(material, press) * length(v)
         losing += growing * dot(v, u) / length(u)
         return length(u) / losing if losing > 0.0 else inf
-    resistance = rolling_deceleration(material, press, needed)
-    if resistance <= 0.0 or length(v) <= LEAST_SPEED or in_micro_bounces(ball, ball['begin']):
-        return inf
     slowing = -dot(force, v)
-    # The direction of motion changes at the rate of resistance over speed, even where a slope
-    # nearly balances the resistance along it.
-    braked = length(v) / resistance
-    return min(braked, dot(v, v) / slowing) if slowing > 0.0 else braked
+    return min(braking, dot(v, v) / slowing) if braking < inf and slowing > 0.0 else braking
 
 
 @shared
@@ -371,7 +364,7 @@ def project_to_ground(land: Land, ball: BallRecord) -> tuple[float, Vector]:
     store(ball['spin_coefficients'][3], spin)
     surface = turning_surface(land, ball, end, velocity)
     keep_surface(ball, surface[0], surface[1])
-    force, torque, press, _ = rates_on(land, ball, surface, (end, velocity, spin))
+    force, torque, press, _, _ = rates_on(land, ball, surface, (end, velocity, spin))
     first = ball['stages'][0]
     fit_segment(
         ball,

@@ -94,24 +94,29 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
         braking = material['dynamic_friction'] * press
         u = slip(v, load(ball['spin']), normal, land.ball.radius)
         growth *= 1.0 + k
+        # Where its slip ends, it is faster or slower: in between no faster than at both ends.
+        fastest = max(length(v), length(add_scaled(v, -k / (1.0 + k), u)))
         # What grows with speed brakes the centre alone, and so drives slip: where friction can't
         # hold it, slip does not end, or begins anew the other way.
         losing = (1.0 + 1.0 / k) * braking - growth * dot(v, v) - length(downhill)
         if losing < LEAST_BRAKE:
             return False
         time = length(u) / losing
-        # Slip that ends leaves it faster, or slower: in between it is no faster than at both ends.
-        fastest = max(length(v), length(add_scaled(v, -k / (1.0 + k), u)))
+        fastest += length(downhill) / (1.0 + k) * time
         change = 2.0 * growth * (braking + growth * fastest * fastest) * fastest * time
     else:
         needed = rolling_needs(material, press, downhill, v, k)
         if needed > material['static_friction'] * press:
             return False
         braking = material['rolling_resistance'] * press - length(downhill) / (1.0 + k)
-        if braking < -LEAST_BRAKE:  # it does not stop: a slope drives it
-            return False
-        time = length(v) / max(braking, LEAST_BRAKE)
-        change = max(growth * dot(v, v), growing_needs(material, press, v, k) * length(v))
+        fastest = length(v)
+        if fastest < braking * LONGEST_SEGMENT:
+            time = fastest / braking
+        else:  # a slope may drive it
+            time = LONGEST_SEGMENT
+            fastest -= min(braking, 0.0) * time
+        grip = growing_needs(material, press, (fastest, 0.0, 0.0), k) * fastest
+        change = max(growth * fastest * fastest, grip)
     return change * time * time <= EVENLY * land.limits.path
 
 

@@ -28,12 +28,12 @@ from ..collision.ground_contact import (
 )
 from ..collision.water_entry import first_water_entry
 from ..contact.contact_state import (
-    contact_material_number,
     heading,
     in_micro_bounces,
     remove_slip,
     set_support,
     touch_down,
+    update_material,
 )
 from ..contact.curved_motion import curved_segment
 from ..contact.plane_motion import plane_segment, resists_evenly
@@ -242,7 +242,7 @@ def contact_segment(model: ModelRecord, ball: BallRecord, now: float) -> int:
     if ends or ahead == ZERO:  # else it is heading where it was
         goes_on = flat_ground_goes_on(land, ball)
     ball['on_flat'] = 1 if goes_on else 0
-    ball['material'] = contact_material_number(land, ball, ball['support'], normal)
+    update_material(land, ball)
     if goes_on:
         surface = land.ball.radius, normal, ZERO
         if not is_in_still_air(land, ball, now):
@@ -270,7 +270,7 @@ def smooth_surface_segment(model: ModelRecord, ball: BallRecord, now: float) -> 
     place, v = load(ball['position']), load(ball['velocity'])
     surface = turning_surface(land, ball, place, v)
     store(ball['normal'], surface[1])
-    ball['material'] = contact_material_number(land, ball, ball['support'], surface[1])
+    update_material(land, ball)
     curved_segment(model, ball, now, surface)
 
 
@@ -317,7 +317,7 @@ def flat_ground_goes_on(land: Land, ball: BallRecord) -> bool:
 def launch(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Choose whether a ball sets off in flight or along the ground.
 
-    Writes phase, step, velocity, spin, pile, water, micro_bounce_end.
+    Writes phase, step, material, velocity, spin, pile, water, micro_bounce_end.
     """
     take_off(ball)
     ball['rapid_impacts'] = 0

@@ -154,7 +154,7 @@ def motion_before(work: WorkRecord, i: int) -> tuple[Vector, Vector]:
 def resume_motion(land: Land, balls: np.ndarray, now: float, work: WorkRecord, first: int) -> None:
     """Choose phase and contact of the involved balls, from `first` on, after an impact.
 
-    Writes phase, step, velocity, spin, micro_bounce_end, sleeps_on_ball.
+    Writes phase, step, material, velocity, spin, micro_bounce_end, sleeps_on_ball.
     """
     for k in range(first, work.counts[INVOLVED]):
         ball = balls[work.involved[k]]

@@ -252,7 +252,7 @@ def collect_resting_contacts(land: Land, balls: np.ndarray, work: WorkRecord, no
 def choose_after_step(land: Land, ball: BallRecord, now: float, work: WorkRecord) -> None:
     """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
 
-    Writes motion, phase, step, pile, asleep.
+    Writes motion, phase, step, material, pile, asleep.
     """
     speed = length(load(ball['velocity']))
     left = max(speed - ball['rolling_loss'], 0.0)

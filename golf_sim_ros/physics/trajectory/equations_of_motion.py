@@ -14,6 +14,8 @@
 
 """Equations of motion: of a ball in flight, and of one in contact with ground."""
 
+from math import inf
+
 from ..effects import flight_rates, gravity_at, moving_air, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
@@ -36,6 +38,8 @@ from ..mechanics.vector import (
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
+SETTLING = 0.01  # s: steps of a slow ball on the ground are not cut below about this
+ASTRAY = 1e-3  # rad: motion that is off by more does not go along its drive
 KEPT = 7  # row of ``stages`` that no stage is in
 GRIP_MARGIN = 1.05  # times dynamic friction: what may slow a rolling ball's spin (an estimate)
 STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is only stiff
@@ -57,7 +61,7 @@ def rates(
         return sinking(model.effects, position, velocity), ZERO
     if ball['phase'] == FLIGHT:
         return flight_rates(model.effects, model.land.ground, position, velocity, spin)
-    force, torque, _, _ = contact_rates(model.land, ball, position, velocity, spin)
+    force, torque, _, _, _ = contact_rates(model.land, ball, position, velocity, spin)
     return force, torque
 
 
@@ -218,21 +222,43 @@ def kept_surface(ball: BallRecord) -> tuple[float, Vector]:
 @kernel
 def contact_rates(
     land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
-) -> tuple[Vector, Vector, float, float]:
+) -> tuple[Vector, Vector, float, float, float]:
     """`rates_on` the surface that supports the ball, which is kept. Writes stages."""
     surface = turning_surface(land, ball, place, velocity)
     keep_surface(ball, surface[0], surface[1])
     return rates_on(land, ball, surface, (place, velocity, spin))
 
 
+@kernel
+def settled_speed(velocity: Vector, drive: Vector, resistance: float) -> float:
+    """Speed [m/s] along its `drive` to add to a slow ball's velocity, for resistance's direction.
+
+    Resistance opposes the velocity: it turns the motion of a ball that is slow into the direction
+    of what drives it, in a time of speed over resistance, and steps must be as short. A ball that
+    already moves so, as one that has just set off does, has resistance against the velocity with
+    this added to it: the same direction, which turns in SETTLING. To others nothing is added.
+    """
+    speed = length(velocity)
+    more = SETTLING * resistance - speed
+    driven = length(drive)
+    if more <= 0.0 or driven <= 0.5 * resistance:
+        return 0.0
+    along = dot(velocity, drive) / driven
+    aside = length(add_scaled(velocity, -along / driven, drive)) / (ASTRAY * speed)
+    if along <= 0.0 or aside >= 1.0:
+        return 0.0
+    return more * (1.0 - aside * aside)
+
+
 @shared
 def rates_on(
     land: Land, ball: BallRecord, surface: TurningSurface, motion: tuple[Vector, Vector, Vector]
-) -> tuple[Vector, Vector, float, float]:
-    """Acceleration, angular acceleration, press, and friction needed to roll.
+) -> tuple[Vector, Vector, float, float, float]:
+    """Acceleration, angular acceleration, press, friction needed to roll, and a time.
 
     Of a ball in contact with a `surface`; its `motion` is position, velocity and spin. A press
-    below 0 means that the ground would have to pull.
+    below 0 means that the ground would have to pull. In about the time [s] constant resistance
+    stops a ball that rolls, or turns its motion: infinite where it has none.
 
     With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
     mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =
@@ -265,8 +291,18 @@ def rates_on(
     needed = length(turning)
     resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
     downhill = add_scaled(downhill, -(1.0 + k) * growing, velocity)
-    if length(velocity) > LEAST_SPEED:
-        free = add_scaled(free, -resistance / length(velocity) - growing, velocity)
+    speed = length(velocity)
+    time = inf
+    if speed > LEAST_SPEED:
+        more = settled_speed(velocity, free, resistance)
+        if resistance > 0.0:
+            time = (speed + more) / resistance
+        if more > 0.0:
+            against = add_scaled(velocity, more / length(free), free)
+            free = add_scaled(free, -resistance / length(against), against)
+            free = add_scaled(free, -growing, velocity)
+        else:
+            free = add_scaled(free, -resistance / speed - growing, velocity)
     else:  # from rest it sets off along what drives it, if that exceeds the resistance
         free = scale(max(1.0 - resistance / max(length(free), 1e-300), 0.0), free)
     friction = sub(free, downhill)
@@ -284,4 +320,4 @@ def rates_on(
         torque = add_scaled(
             torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal
         )
-    return force, torque, pressing, needed
+    return force, torque, pressing, needed, time
