@@ -342,6 +342,38 @@ def test_a_ball_that_a_slope_drives_is_braked_by_grass_however_slow_it_begins(ac
 
 
 @pytest.mark.parametrize('accuracy', ACCURACY)
+@pytest.mark.parametrize('friction, resistance, fall', [(0.2, 0.5, 0.4), (0.45, 0.9, 0.8)])
+def test_growing_resistance_brakes_where_grip_limits_the_constant(
+    friction, resistance, fall, accuracy
+):
+    slippery = GRASS._replace(
+        static_friction=friction, dynamic_friction=friction, rolling_resistance=resistance
+    )
+    tilt = atan(fall)
+    course = Course((Plane(normal=(sin(tilt), 0.0, cos(tilt)), material=slippery),))
+    down = np.array((cos(tilt), 0.0, -sin(tilt)))
+    press, pull = GRAVITY * cos(tilt), GRAVITY * sin(tilt)
+    growth = resistance * 0.07 * press
+
+    def rates(_, state):
+        v = state[1]
+        growing = growth * v * v
+        needed = abs(2 / 7 * pull - 2 / 5 * growing)  # by the spin, driven and slowed
+        braked = min(resistance * press, max(friction * press - needed, 0.0))
+        return v, 5 / 7 * pull - growing - braked
+
+    world = World(course, effects=('gravity',), accuracy=accuracy, engine='python')
+    start = np.array(world['ball'].position)
+    world.place('ball', start, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    world.advance(0.8)
+    assert world['ball'].phase == Phase.ROLL
+    exact = solve_ivp(rates, (0.0, 0.8), (0.0, 0.0), rtol=1e-11, atol=1e-12, max_step=0.001)
+    way = (np.array(world['ball'].position) - start) @ down
+    within = {'reference': 1e-5, 'standard': 1e-3, 'sketch': 1e-2}[accuracy]
+    assert abs(way - exact.y[0, -1]) < within
+
+
+@pytest.mark.parametrize('accuracy', ACCURACY)
 @pytest.mark.parametrize('speed', [0.0, 1e-8])
 def test_grass_brakes_a_ball_that_only_its_spin_drives(accuracy, speed):
     course = level(GRASS)

@@ -31,14 +31,6 @@ from ..trajectory.equations_of_motion import (
 
 
 @kernel
-def set_support(land: Land, ball: BallRecord, part: int, normal: Vector) -> None:
-    """Set the ball's support to `part`, or to none (NO_PART). Writes support, material, normal."""
-    ball['support'] = part
-    ball['material'] = contact_material_number(land, ball, part, normal)
-    store(ball['normal'], normal)
-
-
-@kernel
 def contact_material_number(land: Land, ball: BallRecord, part: int, normal: Vector) -> int:
     """Look up the number of the material of `part` where the ball touches it with `normal`.
 
@@ -106,6 +98,14 @@ def update_material(land: Land, ball: BallRecord) -> None:
     foot = add_scaled(load(ball['position']), -land.ball.radius, load(ball['normal']))
     ahead = add_scaled(foot, surfaces.LOOK_AHEAD, heading(land, ball))
     ball['material'] = surfaces.material_of(land.ground, ball['support'], ahead)
+
+
+@kernel
+def set_support(land: Land, ball: BallRecord, part: int, normal: Vector) -> None:
+    """Set the ball's support to `part`, or to none (NO_PART). Writes support, material, normal."""
+    ball['support'] = part
+    store(ball['normal'], normal)
+    update_material(land, ball)
 
 
 @kernel

@@ -98,17 +98,19 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
         fastest = max(length(v), length(add_scaled(v, -k / (1.0 + k), u)))
         # What grows with speed brakes the centre alone, and so drives slip: where friction can't
         # hold it, slip does not end, or begins anew the other way.
-        losing = (1.0 + 1.0 / k) * braking - growth * dot(v, v) - length(downhill)
+        losing = (1.0 + 1.0 / k) * braking - growth * fastest * fastest - length(downhill)
         if losing < LEAST_BRAKE:
             return False
         time = length(u) / losing
         fastest += length(downhill) / (1.0 + k) * time
-        change = 2.0 * growth * (braking + growth * fastest * fastest) * fastest * time
+        pull = braking + growth * fastest * fastest + length(downhill)
+        change = 2.0 * growth * pull * fastest * time
     else:
         needed = rolling_needs(material, press, downhill, v, k)
         if needed > material['static_friction'] * press:
             return False
-        braking = material['rolling_resistance'] * press - length(downhill) / (1.0 + k)
+        resistance = rolling_deceleration(material, press, needed)
+        braking = resistance - length(downhill) / (1.0 + k)
         fastest = length(v)
         if fastest < braking * LONGEST_SEGMENT:
             time = fastest / braking

@@ -38,8 +38,11 @@ from ..mechanics.vector import (
 from ..state.ball import FLIGHT, ROLL, SLIDE
 
 LEAST_SPEED = 1e-9  # m/s: slower motion or slip counts as none
-SETTLING = 0.01  # s: steps of a slow ball on the ground are not cut below about this
-ASTRAY = 1e-3  # rad: motion that is off by more does not go along its drive
+# A slow ball whose drive is at least DRIVING of its resistance, and which moves within ASTRAY of
+# it, is turned by resistance no faster than within SETTLING: see `settled_speed`.
+DRIVING = 0.9
+ASTRAY = 1e-3  # rad
+SETTLING = 0.01  # s
 KEPT = 7  # row of ``stages`` that no stage is in
 GRIP_MARGIN = 1.05  # times dynamic friction: what may slow a rolling ball's spin (an estimate)
 STIFFEST_GROWTH = 100.0  # 1/m: half of the speed is lost within 7 mm; more is only stiff
@@ -235,13 +238,14 @@ def settled_speed(velocity: Vector, drive: Vector, resistance: float) -> float:
 
     Resistance opposes the velocity: it turns the motion of a ball that is slow into the direction
     of what drives it, in a time of speed over resistance, and steps must be as short. A ball that
-    already moves so, as one that has just set off does, has resistance against the velocity with
-    this added to it: the same direction, which turns in SETTLING. To others nothing is added.
+    moves within ASTRAY of its drive, as one that has just set off does, has resistance against its
+    velocity plus this along the drive: nearly the same direction, which changes within SETTLING.
+    A ball that its drive does not keep going stops first: nothing is added to its speed.
     """
     speed = length(velocity)
     more = SETTLING * resistance - speed
     driven = length(drive)
-    if more <= 0.0 or driven <= 0.5 * resistance:
+    if more <= 0.0 or driven <= DRIVING * resistance:
         return 0.0
     along = dot(velocity, drive) / driven
     aside = length(add_scaled(velocity, -along / driven, drive)) / (ASTRAY * speed)
@@ -257,8 +261,8 @@ def rates_on(
     """Acceleration, angular acceleration, press, friction needed to roll, and a time.
 
     Of a ball in contact with a `surface`; its `motion` is position, velocity and spin. A press
-    below 0 means that the ground would have to pull. In about the time [s] constant resistance
-    stops a ball that rolls, or turns its motion: infinite where it has none.
+    below 0 means that the ground would have to pull. The time [s] is about that in which constant
+    resistance stops a ball that rolls, or turns its motion; infinite where there is none.
 
     With n' the rate of the normal: the constraint demands v' n = -v n', so the normal force over
     mass is -(g n + v n'). Grip also couples spin about the normal, w_n, to motion: (1 + k) v'_t =
