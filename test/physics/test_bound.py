@@ -152,3 +152,16 @@ def test_a_slope_that_hardly_drives_a_ball_takes_few_segments(excess, aside, mon
     assert (np.array(world['ball'].position) - start) @ down == pytest.approx(
         speed * time + 0.5 * net * time**2, abs=within
     )
+
+
+def test_a_ball_in_a_narrow_hollow_does_not_use_up_its_work(monkeypatch):
+    """Its centre is near several points of the ground there, and each takes a search."""
+    monkeypatch.setattr(shot_, 'SUSTAINED_WORK', 0.0)
+    heights = np.zeros((5, 5))
+    heights[2, 2], heights[2, 4] = 0.375, 0.25
+    ground = Heightmap(heights, (-1.0, -1.0), 0.5, SMOOTH)
+    course = Course((Plane((0.0, 0.0, -1.0), material=SMOOTH), ground), tee=(9.0, 0.0))
+    world = World(course, effects=('gravity',), accuracy='reference', engine='python')
+    world.place('ball', (0.9, 0.0, 0.3), (-2.0, 0.0, 0.0))
+    world.advance(0.45)
+    assert 0 < world._balls['segments_spent'][0] < 10_000

@@ -55,8 +55,10 @@ FIRST_STEP = 0.05  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s: a shorter step's end is not projected in position
 CORRECTIONS = 12  # attempts at a step, each shorter than the last
-# work of an attempt, over that of planning a segment, times the effort of the ground
-CORRECTION_WORK = 1
+# Work of an attempt, over that of planning a segment: the effort of the ground, but no more than
+# MOST_EFFORT. Near the ground a search takes 9 times as long where there are several minima, and
+# seldom 25 times.
+MOST_EFFORT = 32
 # of the press at the start: a step at whose end the ground would pull harder is shortened
 LIFTS = 1e-6
 APPROACH = 0.9  # of the time until friction is discontinuous: the longest step towards it
@@ -108,7 +110,7 @@ def curved_segment(
     wanted = ball['step'] if ball['step'] > 0.0 and ball['phase'] == phase else FIRST_STEP
     asked = h = min(wanted, longest_contact_step(land, ball, press, surface[2], change))
     slipping = slip(v, load(ball['spin']), load(ball['normal']), land.ball.radius)
-    cost = CORRECTION_WORK * surfaces.effort(land.ground, ball['support'])
+    cost = min(surfaces.effort(land.ground, ball['support']), MOST_EFFORT)
     for _ in range(CORRECTIONS):
         ball['segments_spent'] += cost
         ball['step'] = h
