@@ -32,6 +32,7 @@ from . import conversions
 from .diagnostics import diagnostic
 from .markers.course_markers import course_markers
 from .markers.play_markers import Scene
+from .memory import give_back_memory
 from .older_rclpy import on_match, watch
 from .parameters import Parameters
 from .transforms import Transforms
@@ -193,8 +194,9 @@ class Publishers:
             )
 
     def course(self) -> None:
-        """Publish markers of the course."""
+        """Publish markers of the course; what making them took is given back."""
         self.of_course.publish(course_markers(self.world.course, self.frame))
+        give_back_memory()
 
     def diagnostics(self, slow: bool, values: dict[str, str]) -> None:
         """Publish how well the simulation keeps up."""

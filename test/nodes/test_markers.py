@@ -224,6 +224,16 @@ def test_an_upright_patch_and_an_upright_plane_are_shown():
         assert len(corners) == 6 and all(corner[0] == pytest.approx(5.0) for corner in corners)
 
 
+def test_triangles_that_share_a_corner_share_its_message(course):
+    lists = [marker for marker in course_markers(course, 'links').markers if marker.ns == 'ground']
+    assert len(lists) > 3
+    for marker in lists:
+        points = {(point.x, point.y, point.z) for point in marker.points}
+        assert len({id(point) for point in marker.points}) == len(points) < len(marker.points)
+        colors = {(color.r, color.g, color.b) for color in marker.colors}
+        assert len({id(color) for color in marker.colors}) == len(colors) <= len(marker.colors) / 3
+
+
 def test_the_shipped_course_is_few_markers_of_every_material_with_stamp_0(course):
     array = course_markers(course, 'links')
     assert len(array.markers) <= 12

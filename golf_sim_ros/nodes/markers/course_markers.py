@@ -14,7 +14,7 @@
 
 """The course as markers: one list of triangles a material, and what stands on the ground."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import singledispatch
 from typing import Any
 
@@ -48,6 +48,7 @@ UPRIGHT = 1e-3  # a normal's z below which a shape is a line from above
 BLACK = (0.0, 0.0, 0.0)
 WHITE = (1.0, 1.0, 1.0)
 RED = (0.85, 0.1, 0.1)
+SHADES = 255  # of red, green and blue that a screen shows
 GRID = 33  # heights a side of ground that is shown by its heights
 BLUE = (0.15, 0.4, 0.75)  # water
 CLEAR = 0.6  # how much of it is seen
@@ -79,10 +80,20 @@ def ground_marker(number: int, material: Material, corners: np.ndarray) -> Marke
     """
     made = marker('ground', number, Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), material.color)
     places = banded(corners, material)
-    made.points = points(places.reshape(-1, 3).tolist())
-    shades = [rgb(color) for color in lit(places, material)]
-    made.colors = [shade for shade in shades for _ in range(3)]
+    made.points = shared(point, places.reshape(-1, 3))
+    shades = np.round(SHADES * lit(places, material)) / SHADES
+    made.colors = shared(rgb, np.repeat(shades, 3, axis=0))
     return made
+
+
+def shared(message: Callable[..., Any], rows: np.ndarray) -> list[Any]:
+    """Make the messages of `rows`, an array (n, k); equal rows have the same one.
+
+    A message takes some 140 bytes, and neighbouring triangles share their corners.
+    """
+    kinds, numbers = np.unique(rows, axis=0, return_inverse=True)
+    made = [message(row) for row in kinds.tolist()]
+    return [made[number] for number in numbers.reshape(-1).tolist()]
 
 
 @singledispatch
@@ -293,6 +304,12 @@ def put(made: Marker, x: float, y: float, z: float) -> None:
     place.x, place.y, place.z = float(x), float(y), float(z)
 
 
+def point(corner: Corner) -> Point:
+    """Make the message of x, y, z."""
+    x, y, z = corner
+    return Point(x=float(x), y=float(y), z=float(z))
+
+
 def points(corners: Iterable[Corner]) -> list[Point]:
     """Point messages of triples."""
-    return [Point(x=float(x), y=float(y), z=float(z)) for x, y, z in corners]
+    return [point(corner) for corner in corners]
