@@ -41,6 +41,7 @@ from .rejected_inputs import RejectedInputs
 from .takeover import load_compiled, Takeover
 from ..course import load_course
 from ..physics import World
+from ..physics.effects.turbulence import box_of
 
 COMMANDS = QoSProfile(depth=10)  # reliable: every strike counts
 # Asks for the least, so it matches every publisher; only the newest wind counts.
@@ -107,6 +108,8 @@ class SimNode(Node):
             engine='python',
             turbulence=(given.turbulence, given.turbulence_seed),
         )
+        if given.turbulence > 0.0:
+            box_of(given.turbulence_seed)  # kept: 0.2 s and 100 MB, which no gust shall wait for
         if given.engine == 'compiled':
             load_compiled(world, self.get_logger())
         self.get_logger().info(

@@ -22,6 +22,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PointStamped, PoseStamped, Twist, TwistStamped, Vector3Stamped
 from golf_sim_ros.nodes.conversions import triple
 from golf_sim_ros.nodes.parameters import Parameters
+from golf_sim_ros.nodes.sim_node import SimNode
+from golf_sim_ros.physics.effects.turbulence import box_of
 from processes import LASTING, LATCHED, parameters, place, READY, seconds, wait_until
 import pytest
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
@@ -33,6 +35,7 @@ from std_srvs.srv import SetBool
 from visualization_msgs.msg import Marker, MarkerArray
 
 CHIP, CHIP_SPIN = (9.0, 0.5, 6.0), (0.0, -100.0, 0.0)
+TURBULENT = {'turbulence': 0.2, 'turbulence_seed': 7}
 PERIOD, TICK = 1 / 50, 1 / 250  # s, by default
 
 
@@ -390,11 +393,28 @@ def test_a_namespace_and_a_remapped_topic_appear_in_the_line_to_paste(start):
     assert '--once /mapped/hit geometry_msgs' in process.wait_for(READY)
 
 
-def test_two_sims_in_one_process_play_apart(domain, make_golfer):
-    from golf_sim_ros.nodes.sim_node import SimNode
-
+@pytest.fixture
+def context(domain):
+    """Give a context in which this process can have nodes of its own."""
     context = rclpy.context.Context()
     rclpy.init(context=context, domain_id=domain)
+    yield context
+    context.try_shutdown()
+
+
+def test_eddies_are_made_before_the_first_gust(context):
+    box_of.cache_clear()
+    given = [rclpy.Parameter(name, value=value) for name, value in TURBULENT.items()]
+    sim = SimNode(context=context, parameter_overrides=given)
+    assert box_of.cache_info().currsize == 1
+    sim.game.set_live('wind', (3.0, 4.0, 0.0))
+    sim.game.apply()
+    assert sim.world.live['wind'] == (3.0, 4.0, 0.0)
+    assert 'turbulence' in sim.world.effects_on and box_of.cache_info().currsize == 1
+    sim.destroy_node()
+
+
+def test_two_sims_in_one_process_play_apart(context, make_golfer):
     names = ('/left', '/right')
     sims = [
         SimNode(
@@ -418,4 +438,3 @@ def test_two_sims_in_one_process_play_apart(domain, make_golfer):
     thread.join()
     for sim in sims:
         sim.destroy_node()
-    context.try_shutdown()
