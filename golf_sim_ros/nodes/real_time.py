@@ -17,13 +17,15 @@
 from collections.abc import Iterator
 from time import monotonic
 
+LONGEST = 0.25  # s of wall time after which ticks stop: callbacks wait for them
+
 
 class RealTime:
     """Accumulator of wall time that gives it out in whole ticks.
 
     A timer may call late or skip calls; the time that passed counts all the same, so simulated
     time keeps up. After a stop longer than `limit` (a suspended laptop, a debugger) the rest of it
-    is lost, not caught up in one leap.
+    is lost, not caught up in one leap. So is what takes longer to simulate than `LONGEST`.
 
     Parameters
     ----------
@@ -51,8 +53,8 @@ class RealTime:
     def portions(self, limit: float, busy: float) -> Iterator[int]:
         """Ticks to do now, in portions after each of which it is time to publish.
 
-        At most `limit` [s] of wall time count; where time `hurries`, ticks go on for `busy` [s] of
-        it.
+        At most `limit` [s] of wall time count, and the ticks go on for `LONGEST` of it; where time
+        `hurries`, for `busy` [s].
         """
         if self.hurries:
             until = monotonic() + busy
@@ -61,9 +63,13 @@ class RealTime:
                 yield self.usual
             return
         ticks = self.due(limit)
+        until = monotonic() + LONGEST
         while ticks >= 2 * self.usual:
             yield self.usual
             ticks -= self.usual
+            if monotonic() > until:
+                self.lost += ticks * self.tick / self.factor
+                return
         yield ticks
 
     def due(self, limit: float) -> int:

@@ -60,6 +60,18 @@ def test_many_ticks_come_in_portions_of_the_usual_size(clock):
     assert list(steady.portions(1.0, 0.0)) == [5, 9]
 
 
+def test_ticks_that_take_too_long_stop_and_the_rest_is_lost_and_counted(clock):
+    steady = RealTime(0.001, 10, 2.0)
+    clock[0] += 1.00001
+    portions = []
+    for ticks in steady.portions(2.0, 0.0):
+        portions.append(ticks)
+        clock[0] += 0.1
+    assert portions == [10, 10, 10]
+    assert steady.lost == pytest.approx((2000 - 30) * 0.001 / 2.0)
+    assert sum(steady.portions(0.0, 0.0)) == 0  # nothing of it is made up
+
+
 def test_a_changed_factor_counts_from_then_on(clock):
     steady = RealTime(0.01, 5)
     clock[0] += 0.1001
