@@ -42,7 +42,7 @@ SWITCH = {
 }
 KIND = {
     float: 'a number, as in 2.5',
-    int: 'a whole number',
+    int: 'a whole number of 64 bits at most',
     bool: 'true or false',
     str: 'text; what YAML reads as something else is quoted, as in \'"on"\'',
     tuple: (
@@ -59,14 +59,13 @@ def number(value: Any) -> float:
 
 
 def whole(value: Any) -> int:
-    """`value` as an int; ValueError where it is none, or has a fraction."""
-    if isinstance(value, int) and not isinstance(value, bool):
-        return value
-    if isinstance(value, str):
-        return int(value)
-    if not number(value).is_integer():
+    """`value` as an int; ValueError where it is none, has a fraction, or is too long for ROS."""
+    if not isinstance(value, (int, str)) and not number(value).is_integer():
         raise ValueError
-    return int(value)
+    made = int(value)
+    if isinstance(value, bool) or abs(made) >= 2**63:
+        raise ValueError
+    return made
 
 
 def switch(value: Any) -> bool:

@@ -107,6 +107,8 @@ def objection(given: Any) -> str:
     """Why transforms cannot be published as parameters ask for them; '' where they can."""
     if not IS_HERE:
         return MISSING
+    if not given.frame_id:
+        return 'frame_id must be a name: transforms lead to it'
     if given.parent_frame in ('', given.frame_id):
         return f'parent_frame {given.parent_frame!r} must be another frame than frame_id'
     return ''

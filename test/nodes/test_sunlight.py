@@ -154,12 +154,15 @@ def test_the_hole_is_where_the_course_has_it():
     assert (hole.rotation.w, made[0].header.stamp.sec) == (1.0, 2)
 
 
-def test_what_cannot_be_published_is_refused():
-    given = SimpleNamespace(parent_frame='course', frame_id='course')
-    assert transforms.objection(given)
-    if transforms.IS_HERE:
-        given.parent_frame = 'map'
-        assert transforms.objection(given) == ''
+def test_what_cannot_be_published_is_refused(monkeypatch):
+    given = SimpleNamespace(parent_frame='map', frame_id='course')
+    monkeypatch.setattr(transforms, 'IS_HERE', False)
+    assert 'tf2_msgs' in transforms.objection(given)
+    monkeypatch.setattr(transforms, 'IS_HERE', True)
+    assert transforms.objection(given) == ''
+    for wrong in ({'parent_frame': 'course'}, {'parent_frame': ''}, {'frame_id': ''}):
+        refused = SimpleNamespace(**{**vars(given), **wrong})
+        assert next(iter(wrong)) in transforms.objection(refused)
 
 
 def nodes(tree, key):
