@@ -19,6 +19,7 @@
 An argument that is left out is not passed to the nodes, so it never overrides a params file.
 """
 
+import atexit
 from pathlib import Path
 import tempfile
 from typing import List
@@ -169,6 +170,7 @@ def view_on(share, name):
     file = tempfile.NamedTemporaryFile('w', prefix='golf_', suffix='.rviz', delete=False)
     with file:
         file.write(made)
+    atexit.register(Path(file.name).unlink, missing_ok=True)
     return Path(file.name)
 
 
