@@ -109,6 +109,9 @@ def objection(given: Any) -> str:
         return MISSING
     if not given.frame_id:
         return 'frame_id must be a name: transforms lead to it'
+    taken = {'tee', 'hole'} & set(given.balls)
+    if taken:
+        return f'a ball {min(taken)!r} would take the frame that the course has of that name'
     if given.parent_frame in ('', given.frame_id):
         return f'parent_frame {given.parent_frame!r} must be another frame than frame_id'
     return ''

@@ -155,7 +155,7 @@ def test_the_hole_is_where_the_course_has_it():
 
 
 def test_what_cannot_be_published_is_refused(monkeypatch):
-    given = SimpleNamespace(parent_frame='map', frame_id='course')
+    given = SimpleNamespace(parent_frame='map', frame_id='course', balls=('ball',))
     monkeypatch.setattr(transforms, 'IS_HERE', False)
     assert 'tf2_msgs' in transforms.objection(given)
     monkeypatch.setattr(transforms, 'IS_HERE', True)
@@ -163,6 +163,8 @@ def test_what_cannot_be_published_is_refused(monkeypatch):
     for wrong in ({'parent_frame': 'course'}, {'parent_frame': ''}, {'frame_id': ''}):
         refused = SimpleNamespace(**{**vars(given), **wrong})
         assert next(iter(wrong)) in transforms.objection(refused)
+    given.balls = ('ball', 'hole')
+    assert "'hole'" in transforms.objection(given)
 
 
 def nodes(tree, key):
