@@ -76,9 +76,9 @@ class Ending:
 def run(make_node: Callable[[], Node], program: Program, args: list[str] | None = None) -> int:
     """Run the node made by `make_node` until the process is told to stop; return the exit code.
 
-    SIGINT and SIGTERM end it with 0 at any time from here on, also while it compiles. Where `make_node` raises
-    what a user can put right (`REFUSED`), the log has one line and the code is 1. Where the
-    arguments leave nothing to run, as `--help` does, the `Program` has its answer.
+    SIGINT and SIGTERM end it with 0 at any time from here on, also while it compiles. Where
+    `make_node` raises what a user can put right (`REFUSED`), the log has one line and the code is
+    1. Where the arguments leave nothing to run, as `--help` does, the `Program` has its answer.
     """
     ending = Ending()
     try:
