@@ -23,6 +23,7 @@ from .closed_pipe import in_pipes
 from .view_play import add_page, failed_with, linked, NoView, place_of, ready
 from ..course import CourseError, load_course
 from ..optional_packages import how_to_get
+from ..view.game import Hole
 from ..view.own_sim import keep_to_ourselves, own_namespace, OwnSim
 from ..view.session import Session
 
@@ -97,6 +98,7 @@ class Game:
     def __init__(self, options: argparse.Namespace) -> None:
         self.options, self.session = options, Session(is_game=True)
         self.number = 0
+        self.left: Optional[Hole] = None  # the hole after which another one was begun
         self.own = None
         if options.namespace is None:
             keep_to_ourselves()
@@ -116,13 +118,17 @@ class Game:
             self.own.start(self.options.courses[0])
 
     async def go_on(self) -> None:
-        """Begin the next hole, or all holes anew after the last one."""
+        """Begin the next hole, or all holes anew after the last one; once, whoever asks."""
         if not self.own:
             self.link.reset()
             return
+        holes = self.session.round.holes
+        if not holes or holes[-1] is self.left:
+            return
+        self.left = holes[-1]
         self.number += 1
         if self.number % len(self.options.courses) == 0:
-            self.session.round.holes.clear()
+            holes.clear()
         course = self.options.courses[self.number % len(self.options.courses)]
         await asyncio.to_thread(self.own.start, course)
 

@@ -367,7 +367,7 @@ class PlayPage:
     async def on_go_on(self) -> None:
         """Begin the next hole."""
         self.dialog.close()
-        if self.go_on:
+        if self.go_on and self.session.is_over:  # another browser may have gone on
             await self.go_on()
 
 

@@ -19,8 +19,11 @@ import os
 from pathlib import Path
 import signal
 import socket
+from types import SimpleNamespace
 
 from geometry_msgs.msg import Twist
+from golf_sim_ros.cli import play_hole
+from golf_sim_ros.course import load_course
 from processes import parameters, wait_until
 import pytest
 
@@ -192,6 +195,21 @@ def left_of(pid):
             continue
         found += [line.parent.name] * (f'__ns:=/play_hole_{pid}'.encode() in words)
     return found
+
+
+def test_two_clicks_on_play_on_begin_one_hole():
+    game = play_hole.Game(play_hole.parser().parse_args(['links', 'tall_pines']))
+    started = []
+    game.own = SimpleNamespace(start=started.append)
+    for name, again in (('links', 'tall_pines'), ('tall_pines', 'links')):
+        game.session.round.begin(load_course(name))
+
+        async def click_twice():
+            await asyncio.gather(game.go_on(), game.go_on())
+            await game.go_on()  # the next hole's sim is not heard of yet
+
+        asyncio.run(click_twice())
+        assert started.pop() == again and not started
 
 
 def test_the_demonstration_holes_out_in_the_terminal(start):

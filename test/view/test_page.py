@@ -210,6 +210,9 @@ def test_the_card_opens_at_the_end_and_goes_on():
         user.find('Play on').click()
         await asyncio.sleep(0.1)
         assert went_on
+        play.session.on_reset()  # another browser has gone on
+        await play.page.on_go_on()
+        assert len(went_on) == 1
 
     looked_at(play, look)
 
