@@ -19,11 +19,11 @@ Needs no ROS.
 
 import argparse
 from collections.abc import Sequence
-from math import isfinite
 from pathlib import Path
 import sys
 
 from .closed_pipe import in_pipes
+from .shoot_arguments import finite
 from ..comparison.errors import compare, Comparison, Figures, figures, LAWS
 from ..comparison.page import draw, everything, PAGE, page, PICTURE, table
 from ..course.course_file import air
@@ -204,17 +204,6 @@ def add_air(group: argparse._ArgumentGroup) -> None:
         metavar=('AHEAD', 'LEFT'),
         help='where the air goes, 10 m above the ground [m/s]: to the target, and to the left',
     )
-
-
-def finite(text: str) -> float:
-    """Parse a finite number."""
-    try:
-        number = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f'{text!r} is not a number') from None
-    if not isfinite(number):
-        raise argparse.ArgumentTypeError(f'{text} is not a finite number')
-    return number
 
 
 def breeze(text: str) -> float:

@@ -69,20 +69,17 @@ def _add_launch(group: argparse._ArgumentGroup) -> None:
         help=('golf: mph, deg, rpm, yd (default); si: m/s, deg, rad/s, m'),
     )
     group.add_argument('--speed', type=_not_negative, metavar='V', help='ball speed')
-    group.add_argument('--launch', type=_number, metavar='DEG', help='angle above the horizontal')
+    group.add_argument('--launch', type=finite, metavar='DEG', help='angle above the horizontal')
     group.add_argument(
         '--azimuth',
-        type=_number,
+        type=finite,
         metavar='DEG',
         default=0.0,
         help=('direction, positive to the right of the target'),
     )
-    group.add_argument('--backspin', type=_number, metavar='W', help='spin that lifts the ball')
+    group.add_argument('--backspin', type=finite, metavar='W', help='spin that lifts the ball')
     group.add_argument(
-        '--sidespin',
-        type=_number,
-        metavar='W',
-        help=('spin that curves it, positive to the right'),
+        '--sidespin', type=finite, metavar='W', help=('spin that curves it, positive to the right')
     )
     group.add_argument(
         '--spin',
@@ -91,10 +88,7 @@ def _add_launch(group: argparse._ArgumentGroup) -> None:
         help=('total spin, with --axis instead of --backspin and --sidespin'),
     )
     group.add_argument(
-        '--axis',
-        type=_number,
-        metavar='DEG',
-        help=('tilt of the spin axis, positive to the right'),
+        '--axis', type=finite, metavar='DEG', help=('tilt of the spin axis, positive to the right')
     )
     group.add_argument(
         '--power',
@@ -152,7 +146,8 @@ def _club(text: str) -> Club:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-def _number(text: str) -> float:
+def finite(text: str) -> float:
+    """Parse a finite number."""
     try:
         number = float(text)
     except ValueError:
@@ -163,7 +158,7 @@ def _number(text: str) -> float:
 
 
 def _not_negative(text: str) -> float:
-    number = _number(text)
+    number = finite(text)
     if number < 0.0:
         raise argparse.ArgumentTypeError(f'{text} is negative')
     return number

@@ -172,11 +172,11 @@ def place_of(options: argparse.Namespace) -> Any:
     return server.Place(address, port, tuple(names))
 
 
-def ready(place: Any, more: str = 'Ctrl-C ends it') -> Any:
+def ready(place: Any) -> Any:
     """Make what prints the page's URL when it can be opened."""
 
     def tell(url: str) -> None:
-        say(f'{url}   (open it in a browser; {more})')
+        say(f'{url}   (open it in a browser; Ctrl-C ends it)')
         if place.address not in ('127.0.0.1', 'localhost', '::1'):
             say(
                 f'Listening on {place.address}: whoever reaches this machine there can open the '

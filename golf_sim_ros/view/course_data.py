@@ -40,7 +40,6 @@ CELLS = 130_000  # heights at most
 TEXELS = 2_800_000  # places at most of which the material is told
 FINEST = 0.25  # m between heights at least
 TEXEL = 5  # materials to a height, along each axis
-COARSEST = 0.2  # m between materials, where that many are not too many
 RANGE = 30_000  # steps of height on either side of the mean that 16 bits hold
 
 

@@ -224,13 +224,6 @@ class PlayPage:
             0.0 if putts else (self.curve.value or 0.0) / 100.0,
         )
 
-    def set_stroke(self, stroke: Stroke) -> None:
-        """Put a stroke into the panel."""
-        self.club.value = stroke.club
-        part = stroke.power / MOST_PUTT if stroke.club == PUTTER else stroke.power
-        self.power.value, self.aim.value = round(100 * part, 2), round(stroke.aim, 2)
-        self.curve.value = round(100 * stroke.curve)
-
     def on_club(self) -> None:
         """Set the sliders to what the club calls for."""
         putts = self.club.value == PUTTER
