@@ -15,7 +15,6 @@
 """A ROS node that strikes a ball and waits for the result."""
 
 from collections.abc import Callable
-import json
 from math import atan2, hypot
 import os
 import sys
@@ -32,7 +31,8 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from ..nodes.conversions import strike, Vector
 from ..nodes.older_rclpy import publisher_count
-from ..nodes.reachability import Reach, SILENT
+from ..nodes.reachability import ours, Reach, RESULT, SILENT
+from ..recording.journal import JournalError, opened
 
 # A result repeats the strike rounded to 1e-4.
 ROUNDING = 0.6e-4
@@ -228,7 +228,10 @@ class Player(Node):
         return beat
 
     def _take_entry(self, message: String, velocity: list[float], spin: list[float]) -> None:
-        entry = json.loads(message.data)
+        try:
+            entry = opened(message.data)
+        except JournalError:
+            return
         if entry['kind'] != 'strike' or entry['shot'] <= self.received or self.number is not None:
             return
         if (entry['velocity'], entry['spin']) == (velocity, spin) and self.ball in (
@@ -284,8 +287,8 @@ class Player(Node):
         return True
 
     def _take_result(self, message: String) -> None:
-        result = json.loads(message.data)
-        if not (result['status'] == 'rejected' and self._is_under_way()):
+        result = ours(message.data, RESULT)
+        if result and not (result['status'] == 'rejected' and self._is_under_way()):
             self.results.append(result)
 
     def _is_under_way(self) -> bool:

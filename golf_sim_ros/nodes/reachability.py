@@ -12,9 +12,9 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Whether a sim can be reached, by its heartbeat.
+"""Whether a sim can be reached, by its heartbeat, and which texts are a sim's.
 
-A dead one has matched subscriptions for a while.
+A dead sim has matched subscriptions for a while. Anybody can publish on its topics.
 """
 
 import json
@@ -29,6 +29,21 @@ BEAT_QOS = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)  # ask
 SILENT = 2.0  # s without a beat, of which there are two a second: the sim cannot be reached
 FRESH = 1.2  # s: no older may a beat be when a strike is sent
 SOON = 3.0  # s: a sim that is reached and not paused has taken a strike long before
+
+# What clients need of a text of a sim, and of which type it is.
+BEAT = {'session': int, 'shots': int, 'paused': bool}
+RESULT = {'shot': int, 'ball': str, 'status': str, 'velocity': list, 'spin': list}
+
+
+def ours(text: str, kinds: dict[str, type]) -> dict[str, Any] | None:
+    """Read the JSON object of a sim that has values of these types; None where it is none."""
+    try:
+        found = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    if not isinstance(found, dict):
+        return None
+    return found if all(isinstance(found.get(key), kinds[key]) for key in kinds) else None
 
 
 class Reach:
@@ -48,7 +63,9 @@ class Reach:
 
     def _hear(self, message: String) -> None:
         now = time.monotonic()
-        beat = json.loads(message.data)
+        beat = ours(message.data, BEAT)
+        if beat is None:
+            return
         if self.silence(now) > SILENT or beat['session'] != self.beat['session']:
             self.reached_since = now
         self.last = beat

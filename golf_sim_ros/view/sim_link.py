@@ -20,7 +20,6 @@ It has a publisher of strikes only where it may strike.
 import asyncio
 from collections.abc import Callable
 from functools import partial
-import json
 import os
 import threading
 from typing import Any
@@ -38,7 +37,7 @@ from .session import Session
 from ..course import CourseError, load_course
 from ..nodes.conversions import strike, triple, Vector
 from ..nodes.lifecycle import EventsExecutor
-from ..nodes.reachability import Reach
+from ..nodes.reachability import ours, Reach, RESULT
 from ..recording.bag import BagError
 from ..recording.journal import JournalError, opened
 from ..recording.replay import course_of
@@ -190,7 +189,9 @@ class SimLink:
 
     def on_result(self, message: String) -> None:
         """Tell how a shot ended."""
-        self.tell(self.session.on_result, json.loads(message.data))
+        result = ours(message.data, RESULT)
+        if result:
+            self.tell(self.session.on_result, result)
 
     def on_wind(self, message: Vector3Stamped) -> None:
         """Tell the wind."""

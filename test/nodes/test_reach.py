@@ -18,7 +18,7 @@ import json
 import signal
 
 from geometry_msgs.msg import PoseStamped
-from processes import parameters, READY, wait_until
+from processes import LASTING, parameters, READY, wait_until
 import pytest
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
@@ -169,6 +169,26 @@ def test_who_struck_and_was_not_heard_is_told_so(start, make_client):
     assert (
         shoot.lines[-1] == 'shoot: nobody took the strike: it was lost on its way; strike again\n'
     )
+
+
+FOREIGN = ('hi', '7', '[]', '{}', '{"session": 1}', '[' * 100_000)
+
+
+def test_foreign_texts_on_a_sims_topics_are_nothing_to_shoot(start, sim_in, make_client):
+    sim_in('/foreign')
+    client = make_client('/foreign')
+    strikes = struck(client)
+    foreign = {
+        topic: client.publisher(String, topic, LASTING, wait=False)
+        for topic in ('heartbeat', 'shot/result', 'journal')
+    }
+    shoot = shooting(start, '/foreign')
+    wait_until(strikes, 'the ball was struck')
+    for publisher in foreign.values():
+        for text in FOREIGN:
+            publisher.publish(String(data=text))
+    assert shoot.wait() == 0
+    assert 'carry' in shoot.output
 
 
 def listen_as_a_sim(client):

@@ -24,8 +24,9 @@ from types import SimpleNamespace
 from geometry_msgs.msg import Twist
 from golf_sim_ros.cli import play_hole
 from golf_sim_ros.course import load_course
-from processes import parameters, wait_until
+from processes import LASTING, parameters, wait_until
 import pytest
+from std_msgs.msg import String
 
 pytest.importorskip('nicegui')
 
@@ -86,6 +87,19 @@ def test_who_comes_late_gets_the_last_result_and_the_trail(url):
     with listening(url) as page:
         assert page.wait_for('result')['ball'] == 'red'
         wait_until(lambda: len(page.poses) > 20, 'the trail came')
+
+
+def test_foreign_texts_on_the_sims_topics_change_nothing(url, client, make_golfer):
+    golfer = make_golfer('/viewed', 'red')
+    with listening(url) as page:
+        page.wait_for('wind')
+        before = len(page.of('result'))
+        for topic in ('heartbeat', 'shot/result', 'journal'):
+            foreign = client.publisher(String, f'/viewed/{topic}', LASTING)
+            for text in ('hi', '7', '{}', '{"session": 1}'):
+                foreign.publish(String(data=text))
+        golfer.strike(PUTT)
+        assert page.wait_for('result', before + 1)['velocity'] == list(PUTT)
 
 
 @pytest.mark.parametrize(
