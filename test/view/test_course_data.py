@@ -20,7 +20,7 @@ import struct
 from golf_sim_ros.course import load_course
 from golf_sim_ros.course.package_files import share
 from golf_sim_ros.drawing.relief import relief
-from golf_sim_ros.physics import Course, Cylinder, ground_height, Plane, Sphere, Water
+from golf_sim_ros.physics import Course, Cylinder, ground_height, Patch, Plane, Sphere, Water
 from golf_sim_ros.physics.scene.kernel_model import materials
 from golf_sim_ros.view.course_data import course_data, pack
 from golf_sim_ros.view.raster import ground_grid, NO_GROUND
@@ -101,6 +101,14 @@ def test_what_stands_and_lies_on_a_course_is_told():
     assert [one['kind'] for one in about['obstacles']] == ['sphere', 'cylinder']
     assert about['water'][0]['level'] == -0.5
     assert about['hole'] == [20.0, 0.0, 0.0]
+
+
+def test_a_cliff_is_as_high_as_it_is():
+    low, high = Plane((0, 0, 0)), Patch((0, 0, 20.0), length=30.0, width=30.0)
+    about, heights, _ = unpacked(pack(Course(ground=(low, high), hole=(10.0, 0.0))))
+    assert heights.max() > 10.0
+    assert abs(heights[heights > 10.0] - 20.0).max() <= about['grid']['step']
+    assert abs(heights[heights <= 10.0]).max() <= about['grid']['step']
 
 
 def test_walls_are_told_as_corners():
