@@ -15,6 +15,7 @@
 """A sim and its wind of one's own: processes that are started for a hole and ended after it."""
 
 from collections.abc import Sequence
+import json
 import os
 import signal
 import subprocess
@@ -50,7 +51,8 @@ class OwnSim:
     def start(self, course: str) -> None:
         """Start the processes of a sim on a course, in place of those that run."""
         self.stop()
-        self.run('sim_node', [f'course:={course}', *self.parameters])
+        name = json.dumps(course, ensure_ascii=False)  # ROS reads YAML: '#' and ': ' say more
+        self.run('sim_node', [f'course:={name}', *self.parameters])
         if self.wind > 0.0:
             about = [f'speed:={self.wind}', f'speed_spread:={0.35 * self.wind}']
             self.run('wind_node', [*about, 'direction_spread:=1.2', 'interval:=12.0', 'ramp:=2.0'])

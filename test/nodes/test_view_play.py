@@ -211,6 +211,14 @@ def left_of(pid):
     return found
 
 
+def test_a_course_is_played_whatever_is_in_its_path(start, tmp_path):
+    course = tmp_path / 'hole #1: grün.yaml'
+    ground = '[{shape: plane, material: green}]'
+    course.write_text(f'format: 1\nname: First\nhole: [90, 0]\nground: {ground}\n')
+    process = start('cli.play_hole', str(course), '--terminal', '--demo', '--wind', '0')
+    process.wait_for('First: par')
+
+
 def test_two_clicks_on_play_on_begin_one_hole():
     game = play_hole.Game(play_hole.parser().parse_args(['links', 'tall_pines']))
     started = []
