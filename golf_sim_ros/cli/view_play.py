@@ -83,7 +83,7 @@ def add_page(reader: argparse.ArgumentParser) -> None:
         '--units', choices=('golf', 'si'), default='golf', help='yards, or metres (%(default)s)'
     )
     reader.add_argument(
-        '--port', type=int, default=0, help='port of the page (the first free from 8470 on)'
+        '--port', type=port, default=0, help='port of the page (the first free from 8470 on)'
     )
     reader.add_argument(
         '--host',
@@ -93,6 +93,13 @@ def add_page(reader: argparse.ArgumentParser) -> None:
         help='address to listen on (127.0.0.1: nobody else can open the page), and names by which '
         'browsers call this machine',
     )
+
+
+def port(text: str) -> int:
+    """Parse the number of a port."""
+    if not (text.isdecimal() and int(text) < 2**16):
+        raise argparse.ArgumentTypeError(f'{text!r} is no port: 0 to 65535')
+    return int(text)
 
 
 def chosen(options: argparse.Namespace) -> tuple:

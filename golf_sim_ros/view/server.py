@@ -17,6 +17,7 @@
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
+import errno
 import gzip
 import os
 import signal
@@ -34,6 +35,7 @@ from .feed import Client, Feed
 from .guard import ANY, Guard
 
 FIRST_PORT, PORTS = 8470, 30
+TAKEN = (errno.EADDRINUSE, errno.EACCES)
 GRACE = 1  # s that browsers get to hang up
 PATIENCE = 20.0  # s for which a browser that draws slowly may say nothing
 LOOK = 0.05  # s from one look at whether to end to the next
@@ -48,13 +50,17 @@ class Place(NamedTuple):
 
 
 def free_port(address: str) -> int:
-    """First port from `FIRST_PORT` on that nobody listens on, or any that is free."""
+    """First port from `FIRST_PORT` on that nobody listens on, or any that is free; or OSError."""
     for port in (*range(FIRST_PORT, FIRST_PORT + PORTS), 0):
         family = socket.AF_INET6 if ':' in address else socket.AF_INET
-        with socket.socket(family, socket.SOCK_STREAM) as probe, suppress(OSError):
+        with socket.socket(family, socket.SOCK_STREAM) as probe:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-            probe.bind((address, port))
-            return probe.getsockname()[1]
+            try:
+                probe.bind((address, port))
+                return probe.getsockname()[1]
+            except OSError as error:
+                if error.errno not in TAKEN:
+                    raise OSError(f'{address}: {error.strerror}') from None
     raise OSError(f'no port is free on {address}')
 
 
@@ -122,6 +128,9 @@ async def talk(socket_: WebSocket, client: Client) -> None:
             await (socket_.send_text if isinstance(message, str) else socket_.send_bytes)(message)
 
 
+failures: list[Exception] = []  # of what was to be done at the start
+
+
 def run(
     place: Place, title: str, opened: Callable, closing: Callable, closed: Callable
 ) -> NoReturn:
@@ -138,6 +147,11 @@ def run(
         Called as soon as the server is told to end; must not wait.
     closed : callable
         Called when it has ended.
+
+    Raises
+    ------
+    RuntimeError
+        What was to be done at the start has failed.
     """
     named = () if place.address in ANY else (place.address,)
     app.add_middleware(Guard, port=place.port, names=(*named, *place.names))
@@ -145,7 +159,10 @@ def run(
     async def watch() -> None:
         while not Server.instance.started:
             await asyncio.sleep(LOOK)
-        opened(url(place))
+        if failures:
+            Server.instance.should_exit = True
+        else:
+            opened(url(place))
         while not Server.instance.should_exit:
             await asyncio.sleep(LOOK)
         closing()
@@ -172,9 +189,12 @@ def run(
         code = 0
     except SystemExit as ended:
         code = 1 if ended.code else 0
-    for number in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(number, signal.SIG_IGN)
-    closed()
+    finally:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
+        closed()
+    if failures:
+        raise RuntimeError(failures[0]) from failures[0]
     leave(code)
 
 
@@ -209,5 +229,12 @@ def show(path: str, build: Callable) -> None:
 
 
 def at_start(act: Callable) -> None:
-    """Call `act` in the event loop when the server starts."""
-    app.on_startup(act)
+    """Call `act` in the event loop when the server starts, which ends where that fails."""
+
+    def start() -> None:
+        try:
+            act()
+        except Exception as error:
+            failures.append(error)
+
+    app.on_startup(start)

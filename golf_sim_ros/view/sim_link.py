@@ -26,9 +26,11 @@ from typing import Any
 
 from geometry_msgs.msg import PointStamped, PoseStamped, Twist, Vector3Stamped
 import rclpy
+from rclpy.exceptions import NameValidationException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
+from rclpy.validate_namespace import validate_namespace
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -49,6 +51,15 @@ LOOK = 0.25  # s from one look at the heartbeat to the next
 POLL = 0.2  # s in which the thread notices that it is to end
 
 
+def check_namespace(name: str | None) -> None:
+    """Check the name of a namespace as a node does; ValueError where it is none."""
+    if name:
+        try:
+            validate_namespace(name if name.startswith('/') else f'/{name}')
+        except NameValidationException as error:
+            raise ValueError(error) from None
+
+
 class SimLink:
     """Link to the sim in a namespace.
 
@@ -60,6 +71,11 @@ class SimLink:
     may_strike : bool
     course : str or None
         Name or path of the course, where it is not where the sim says.
+
+    Raises
+    ------
+    ValueError
+        The namespace is none.
     """
 
     def __init__(
@@ -67,6 +83,7 @@ class SimLink:
     ) -> None:
         self.session, self.namespace, self.may_strike = session, namespace, may_strike
         self.given_course = course
+        check_namespace(namespace)
         self.ended = threading.Event()
         self.start: int | None = None
         self.of_balls: list[Any] = []

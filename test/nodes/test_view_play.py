@@ -20,6 +20,7 @@ from pathlib import Path
 import signal
 import socket
 from types import SimpleNamespace
+from unittest.mock import MagicMock
 
 from geometry_msgs.msg import Twist
 from golf_sim_ros.cli import play_hole
@@ -31,6 +32,7 @@ from std_msgs.msg import String
 pytest.importorskip('nicegui')
 
 import aiohttp  # noqa: E402, I100
+from golf_sim_ros.view import server  # noqa: E402
 from page_server import listening, served  # noqa: E402
 
 DRIVE = (60.0, 1.0, 14.0), (0.0, -250.0, 0.0)
@@ -266,7 +268,41 @@ def test_what_cannot_be_played_is_one_line(start):
     for arguments, told in (
         (('nowhere',), 'nowhere'),
         (('links', '--namespace', '/x'), 'name none'),
+        (('--namespace', 'a b'), 'Invalid namespace'),
+        (('--host', 'nowhere.invalid'), 'nowhere.invalid: '),
     ):
         process = start('cli.play_hole', *arguments)
         assert process.wait() == 1
         assert told in process.output and len(process.output.splitlines()) == 1
+        assert 'no port' not in process.output
+
+
+@pytest.mark.parametrize('command', [('cli.view_play',), ('cli.play_hole', 'putting_green')])
+def test_a_link_that_fails_ends_it_with_one_line_and_code_1(start, command):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.delenv('PYTEST_CURRENT_TEST', raising=False)
+        process = start(*command, environment={'ROS_DOMAIN_ID': 'abc'})
+    assert process.wait() == 1
+    assert 'ROS_DOMAIN_ID' in process.output and len(process.output.splitlines()) == 1
+    assert not left_of(process.pid)
+
+
+@pytest.mark.parametrize('port', ['-1', '65536', '70000', 'http', '8e3'])
+def test_what_is_no_port_is_refused(port, capsys):
+    with pytest.raises(SystemExit) as ended:
+        play_hole.main([f'--port={port}'])
+    assert ended.value.code == 2
+    assert f'{port!r} is no port: 0 to 65535' in capsys.readouterr().err
+
+
+def test_a_server_that_fails_closes_what_it_was_for(monkeypatch):
+    def fail(**options):
+        raise OverflowError('this is no port')
+
+    closed = []
+    monkeypatch.setattr(server.ui, 'run', fail)
+    monkeypatch.setattr(server, 'app', MagicMock())
+    monkeypatch.setattr(server.signal, 'signal', lambda *_: None)
+    with pytest.raises(OverflowError):
+        server.run(server.Place(), 'x', print, print, lambda: closed.append(True))
+    assert closed
