@@ -54,6 +54,7 @@ class Session:
         self.names: list[str] = []
         self.reached, self.problem = False, ''
         self.sent_at: float | None = None
+        self.outcome: dict[str, Any] | None = None  # of what was sent last, as soon as it is told
         self.flying: dict[int, int] = {}  # shots by ball
         self.ended: set[int] = set()  # numbers of shots that are over
         self.struck = 0  # number of the last strike
@@ -97,7 +98,7 @@ class Session:
 
     def sent(self, club: str, velocity: Place, spin: Place) -> None:
         """Note a strike that is being sent."""
-        self.sent_at = monotonic()
+        self.sent_at, self.outcome = monotonic(), None
         self.round.strike(club, velocity, spin)
         self.notify()
 
@@ -176,7 +177,7 @@ class Session:
         if result['status'] != 'rejected':
             self.flying.pop(number, None)
         if number == 0:
-            self.sent_at = None
+            self.sent_at, self.outcome = None, result
             if self.is_game:
                 self.round.end(result)
         self.feed.result(result)

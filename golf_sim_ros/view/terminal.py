@@ -16,7 +16,9 @@
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 from math import hypot
+import os
 import signal
 import sys
 from typing import Any
@@ -40,6 +42,34 @@ q                            end
 """
 
 
+class Lines:
+    """Lines of standard input; several may come at once."""
+
+    def __init__(self) -> None:
+        self.waiting = b''
+
+    async def read(self) -> str | None:
+        """Read the next line; None where input ended."""
+        more = b' '
+        while more and b'\n' not in self.waiting:
+            more = await read_some()
+            self.waiting += more
+        line, end, self.waiting = self.waiting.partition(b'\n')
+        return (line + end).decode(errors='replace') or None
+
+
+async def read_some() -> bytes:
+    """Read what there is of standard input, as soon as there is any; nothing where it ended."""
+    loop, ready = asyncio.get_running_loop(), asyncio.Event()
+    with suppress(PermissionError, ValueError):  # a file, which need not be waited for
+        loop.add_reader(sys.stdin, ready.set)
+        try:
+            await ready.wait()
+        finally:
+            loop.remove_reader(sys.stdin)
+    return os.read(sys.stdin.fileno(), 4096)
+
+
 def play(game: Any, options: Any) -> int:
     """Play in the terminal; return the exit code."""
     try:
@@ -59,10 +89,10 @@ async def rounds(game: Any, options: Any) -> int:
     for number in (signal.SIGINT, signal.SIGTERM):
         if task is not None:
             loop.add_signal_handler(number, task.cancel)
-    worker = Worker()
+    worker, lines = Worker(), Lines()
     forget = game.session.listen(tell_status(game))
     game.begin()
-    playing = asyncio.create_task(holes(game, options, worker))
+    playing = asyncio.create_task(holes(game, options, worker, lines))
     watching = asyncio.create_task(until(lambda: trouble(game)))
     try:
         await asyncio.wait((playing, watching), return_when=asyncio.FIRST_COMPLETED)
@@ -80,7 +110,7 @@ async def rounds(game: Any, options: Any) -> int:
         await worker.ended()
 
 
-async def holes(game: Any, options: Any, worker: Worker) -> int:
+async def holes(game: Any, options: Any, worker: Worker, lines: Lines) -> int:
     """Play all holes, or until input ends; return the exit code."""
     session = game.session
     while True:
@@ -88,7 +118,7 @@ async def holes(game: Any, options: Any, worker: Worker) -> int:
         tee_off(session, options.units)
         if options.demo:
             await demonstrated(session, worker, game, options.units)
-        elif not await typed(session, worker, game, options.units):
+        elif not await typed(session, worker, game, options.units, lines):
             return 0
         print(card(session.round.hole), flush=True)
         if game.is_last:
@@ -144,13 +174,13 @@ async def demonstrated(session: Session, worker: Worker, game: Any, units: str) 
         forget()
 
 
-async def typed(session: Session, worker: Worker, game: Any, units: str) -> bool:
+async def typed(session: Session, worker: Worker, game: Any, units: str, lines: Lines) -> bool:
     """Strike as typed until the ball is in the hole; False where input ended."""
     print(HELP, end='')
     while not session.is_over:
         print(situation(session, units), end='', flush=True)
         try:
-            line = await next_line()
+            line = await lines.read()
         except asyncio.CancelledError:
             print(flush=True)  # what is told next begins a line
             raise
@@ -163,27 +193,16 @@ async def typed(session: Session, worker: Worker, game: Any, units: str) -> bool
         if lie is None:
             continue
         velocity, spin = launch(lie.course.hole, lie.place, stroke)
-        lines = len(session.round.hole.lines)
+        before = list(session.round.hole.lines)
         session.sent(stroke.club, velocity, spin)
         game.link.strike(velocity, spin)
         await until(lambda: session.can_strike() or session.is_over)
-        for played in session.round.hole.lines[lines:]:
-            print(described(played, units), flush=True)
+        played = [each for each in session.round.hole.lines if each not in before]
+        for each in played:
+            print(described(each, units), flush=True)
+        if not played:
+            print(unplayed(session.outcome), flush=True)
     return True
-
-
-async def next_line() -> str | None:
-    """Read a line of standard input; None where it ended."""
-    loop, ready = asyncio.get_running_loop(), asyncio.Event()
-    try:
-        loop.add_reader(sys.stdin, ready.set)
-    except (PermissionError, ValueError):  # a file
-        return sys.stdin.readline() or None
-    try:
-        await ready.wait()
-    finally:
-        loop.remove_reader(sys.stdin)
-    return sys.stdin.readline() or None
 
 
 async def understood(line: str, session: Session, worker: Worker) -> Stroke | None:
@@ -253,6 +272,13 @@ def described(line: Any, units: str) -> str:
     penalty = f', {line.penalty} penalty stroke' if line.penalty else ''
     way = f'{result["total"] / length.size:.1f} {length.name}'
     return f'  {line.stroke}. {line.club or "shot"}: {way}, {end}{penalty}'
+
+
+def unplayed(result: dict[str, Any] | None) -> str:
+    """Describe why a strike was no stroke; its result is None where none came."""
+    if result is None:
+        return '  no result came: the strike was lost, or the sim is paused'
+    return '  ' + ': '.join(filter(None, (result['status'], result.get('reason'))))
 
 
 def card(hole: Hole) -> str:

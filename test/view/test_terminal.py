@@ -14,12 +14,14 @@
 
 """What is typed in the terminal, and what is told there."""
 
+import asyncio
+import os
 import subprocess
 import sys
 from types import SimpleNamespace
 
 from golf_sim_ros.course import load_course
-from golf_sim_ros.view import terminal
+from golf_sim_ros.view import session as session_module, terminal
 from golf_sim_ros.view.caddie import putt_speed, Stroke
 from golf_sim_ros.view.own_sim import OwnSim
 from golf_sim_ros.view.session import Session
@@ -90,6 +92,75 @@ def test_a_sim_of_others_that_is_gone_and_back_is_told_once_each(session, capsys
         'play_hole: The sim cannot be reached',
         'play_hole: The sim is reached',
     ]
+
+
+@pytest.mark.parametrize(
+    'result, told',
+    [
+        ({'status': 'rejected', 'reason': 'over 150 m/s'}, 'rejected: over 150 m/s'),
+        ({'status': 'failed', 'reason': 'too many segments'}, 'failed: too many segments'),
+        (None, 'no result came: the strike was lost, or the sim is paused'),
+    ],
+)
+def test_a_strike_that_is_no_stroke_is_told_with_its_reason(
+    session, result, told, capsys, monkeypatch
+):
+    monkeypatch.setattr(session_module, 'TAKEN', 0.0)
+    session.names = ['ball']
+    session.on_reach(True, False, True)
+
+    def strike(velocity, spin):
+        if result:
+            about = {'shot': 1, 'ball': 'ball', 'velocity': velocity, 'spin': spin}
+            session.on_result({**about, **result})
+
+    async def play():
+        lines = SimpleNamespace(read=iter_of(['driver 250', None]))
+        game = SimpleNamespace(link=SimpleNamespace(strike=strike))
+        return await terminal.typed(session, None, game, 'si', lines)
+
+    assert not asyncio.run(play())
+    assert f'  {told}\n' in capsys.readouterr().out
+
+
+def iter_of(lines):
+    """Give a function of these lines one after the other, to be awaited."""
+    left = iter(lines)
+
+    async def following():
+        return next(left)
+
+    return following
+
+
+def test_lines_that_are_pasted_together_come_one_by_one(monkeypatch):
+    reading, writing = os.pipe()
+
+    async def read_all():
+        lines = terminal.Lines()
+        os.write(writing, b'7i\n\ndriver 9')
+        found = [await asyncio.wait_for(lines.read(), 20.0) for _ in range(2)]
+        os.write(writing, b'0\nq')
+        found.append(await asyncio.wait_for(lines.read(), 20.0))
+        os.close(writing)
+        return found + [await lines.read(), await lines.read()]
+
+    with os.fdopen(reading) as stdin:
+        monkeypatch.setattr(sys, 'stdin', stdin)
+        assert asyncio.run(read_all()) == ['7i\n', '\n', 'driver 90\n', 'q', None]
+
+
+def test_lines_of_a_file_come_one_by_one(monkeypatch, tmp_path):
+    path = tmp_path / 'strokes'
+    path.write_text('7i\nq\n')
+
+    async def read_all():
+        lines = terminal.Lines()
+        return [await lines.read() for _ in range(3)]
+
+    with path.open() as stdin:
+        monkeypatch.setattr(sys, 'stdin', stdin)
+        assert asyncio.run(read_all()) == ['7i\n', 'q\n', None]
 
 
 def test_one_stroke_is_one_stroke(session):
