@@ -59,13 +59,13 @@ STRIKES = 5  # of these that are played; the third is at a ball in motion
 class Sim:
     """Plays, and keeps all messages: topic, type, time received [ns], message."""
 
-    def __init__(self, namespace='', start=START):
+    def __init__(self, namespace='', start=START, session=0):
         self.namespace, self.start, self.told = namespace, start, []
         self.world = World(load_course('golf_without_friends'), ('red', 'blue'))
         self.tick = self.shots = 0
         self.playing = {}
         self.journal = Journal(lambda text: self.tell_text('journal', text))
-        self.journal.config(self.world, PARAMETERS, start)
+        self.journal.config(self.world, PARAMETERS, start, session)
 
     def play(self, inputs=PLAY, last=LAST):
         """Play it all."""

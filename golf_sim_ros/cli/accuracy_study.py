@@ -38,7 +38,7 @@ def main(args: Sequence[str] | None = None) -> int:
     parser.add_argument(
         '--quick',
         action='store_true',
-        help='four scenes, methods and promises, a minute or two; the full study takes fifteen',
+        help='four scenes, methods and promises, a minute or two; the full study takes twenty',
     )
     parser.add_argument(
         '-o',

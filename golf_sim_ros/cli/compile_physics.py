@@ -23,7 +23,7 @@ import sys
 from typing import Any
 
 from .closed_pipe import in_pipes
-from ..course import CourseError, load_course
+from ..course import load_course
 from ..physics import World
 from ..physics.jit import cache
 from ..physics.jit.build import Build, READY
@@ -47,7 +47,7 @@ def main(args: Sequence[str] | None = None) -> int:
             World(course, PROGRAMS[name], engine='python') for name in options.programs or PROGRAMS
         ]
         reason = compiled([world.part for world in worlds])
-    except CourseError as error:
+    except ValueError as error:  # of the course, or because two balls find no place on its tee
         reason = ' '.join(str(error).split())
     except KeyboardInterrupt:
         return 130

@@ -158,11 +158,11 @@ def parser() -> argparse.ArgumentParser:
 def main(args: list[str] | None = None) -> int:
     """Record until a signal ends it; return the exit code."""
     args = sys.argv if args is None else args
-    options = parser().parse_args(remove_ros_args(args)[1:])
     ending = Ending()
     ending.be_patient()
     complete_environment()
     try:
+        options = parser().parse_args(remove_ros_args(args)[1:])
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         return recorded(options, ending)
     except (CannotRecord, NameValidationException, OSError, RuntimeError) as error:
@@ -175,7 +175,11 @@ def main(args: list[str] | None = None) -> int:
 def recorded(options: argparse.Namespace, ending: Ending) -> int:
     """Record one bag; return the exit code."""
     bag = BagWriter(options.output, options.storage)
-    recorder = Recorder(bag, options.namespace, options.balls)
+    try:
+        recorder = Recorder(bag, options.namespace, options.balls)
+    except BaseException:
+        bag.discard()
+        raise
     say(f'waiting for a sim in {recorder.get_namespace()}')
     try:
         record(recorder, ending)

@@ -88,7 +88,9 @@ class SimNode(Node):
         self.game = Game(
             self.world, self.topics, self.rejected_inputs, self.get_logger(), given, takeover
         )
-        self.game.journal.config(self.world, given._asdict(), self.topics.began)
+        self.game.journal.config(
+            self.world, given._asdict(), self.topics.began, self.topics.session
+        )
         self.subscribe(given)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.timer = self.create_timer(1.0 / given.publish_rate, self.on_timer, clock=steady)

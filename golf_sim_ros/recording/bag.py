@@ -23,8 +23,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from .bag_file import BagError, raw_messages
-from .journal import JournalError, opened
+from .bag_file import BagError, Raw, raw_messages
+from .journal import beginning, JournalError, opened, SEAL
 from .journal_format import current, Entry
 from ..optional_packages import how_to_get
 
@@ -32,7 +32,7 @@ __all__ = ['BagError', 'read_bag', 'Recording', 'Strike', 'Track']
 
 T = TypeVar('T')
 Received = tuple[int, Any]  # when a message was recorded [ns], and the message
-Parts = dict[Any, Any]  # list of Received by ball and name of the topic; 'start', if known [ns]
+Parts = dict[Any, Any]  # lists of Received by ball and topic; 'start': a `beginning`
 
 TEXT = 'std_msgs/msg/String'
 POSE = 'geometry_msgs/msg/PoseStamped'
@@ -132,12 +132,9 @@ def read_bag(path: str | PathLike[str]) -> tuple[Recording, ...]:
         told = raw_messages(Path(path))
     except (BagError, OSError, MemoryError) as error:
         raise BagError(f'{path}: {error}') from None
-    sims = {
-        topic.removesuffix(f'/{end}')
-        for topic, kind in {message[1:3] for message in told}
-        for end in ('journal', 'shot/result')
-        if topic.endswith(f'/{end}') and kind == TEXT
-    }
+    # Others may have a journal, too: an entry of ours has its seal.
+    ours = sims_with('shot/result', told) | sims_with('journal', told, SEAL.encode())
+    sims = ours or sims_with('journal', told)
     if not sims:
         raise BagError(
             f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`'
@@ -157,6 +154,15 @@ def read_bag(path: str | PathLike[str]) -> tuple[Recording, ...]:
         for namespace, starts in plays.items()
         for parts in starts
     )
+
+
+def sims_with(end: str, told: Iterable[Raw], part: bytes = b'') -> set[str]:
+    """Namespaces with a topic of texts that ends so, of which one at least has that `part`."""
+    return {
+        topic.removesuffix(f'/{end}')
+        for _, topic, kind, raw in told
+        if topic.endswith(f'/{end}') and kind == TEXT and part in raw
+    }
 
 
 def decoder(path: str | PathLike[str]) -> Callable[[str, str, bytes], Any]:
@@ -201,15 +207,15 @@ def begun(starts: list[Parts], name: str, message: Any, path: str | PathLike[str
         return starts[-1]
     entry = entry_of(message, path)
     if entry['kind'] == 'config':
-        start = starts[-1].setdefault('start', entry['start'])
-        if start != entry['start']:
-            starts.append(defaultdict(list, start=entry['start']))
+        start = beginning(entry)
+        if starts[-1].setdefault('start', start) != start:
+            starts.append(defaultdict(list, start=start))
     return starts[-1]
 
 
 def recording(namespace: str, parts: Parts, path: str | PathLike[str]) -> Recording:
     """Put the messages of one start of a sim together."""
-    start = parts['start'] if 'start' in parts else first_pose(parts)
+    start = parts['start'][0] if 'start' in parts else first_pose(parts)
     journal = tuple(entries(parts['', 'journal'], path))
     winds = parts['', 'wind']
     return Recording(

@@ -17,6 +17,7 @@
 from collections.abc import Iterable
 from os import PathLike
 from pathlib import Path
+from shutil import rmtree
 from typing import Any
 
 from ..optional_packages import how_to_get
@@ -86,6 +87,11 @@ class BagWriter:
     def close(self) -> None:
         """Complete the bag."""
         self.writer.close()
+
+    def discard(self) -> None:
+        """Remove the bag, of which nothing is wanted."""
+        self.close()
+        rmtree(self.path)
 
 
 def qos(reliability: str, durability: str, depth: int) -> Any:

@@ -57,10 +57,13 @@ class Journal:
         self.tell(sealed({'entry': self.entries, 'kind': kind, 'tick': tick, **values}))
         self.entries += 1
 
-    def config(self, world: World, parameters: dict[str, Any], start: int) -> None:
+    def config(
+        self, world: World, parameters: dict[str, Any], start: int, session: int = 0
+    ) -> None:
         """Write the configuration of the play.
 
-        `start`: ROS time [ns] at which simulated time began.
+        `start`: ROS time [ns] at which simulated time began; `session`: another number for each
+        start of the node, whatever that time is.
         """
         course = {
             'name': world.course.name,
@@ -75,6 +78,7 @@ class Journal:
             course=course,
             parameters=parameters,
             start=start,
+            session=session,
             made_with=made_with(),
         )
 
@@ -93,6 +97,14 @@ class Journal:
         self.note(
             'rest', tick, shot=shot, ball=result.ball, status=result.status, state=standing(ball)
         )
+
+
+def beginning(config: dict[str, Any]) -> tuple[int, int]:
+    """Start and session of a configuration: what tells one start of a sim from another.
+
+    Older journals have no session.
+    """
+    return config['start'], config.get('session', 0)
 
 
 def standing(ball: BallState) -> dict[str, Any]:

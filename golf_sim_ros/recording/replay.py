@@ -112,7 +112,8 @@ def world_of(recording: Recording, course: str | PathLike[str] | None = None) ->
     Raises
     ------
     BagError
-        There is no journal or no such course, or the course is another one.
+        There is no journal or no such course, the course is another one, or it needs an effect
+        that is unknown here.
     """
     config = config_of(recording)
     parameters = config['parameters']
@@ -122,13 +123,16 @@ def world_of(recording: Recording, course: str | PathLike[str] | None = None) ->
             f'course {found.path}: is not the one that was played: its digest is '
             f'{found.digest[:12]}, in the journal {config["course"]["digest"][:12]}'
         )
-    return World(
-        found,
-        parameters['balls'],
-        tuple(parameters['effects']),
-        parameters['accuracy'],
-        engine='python',
-    )
+    try:
+        return World(
+            found,
+            parameters['balls'],
+            tuple(parameters['effects']),
+            parameters['accuracy'],
+            engine='python',
+        )
+    except ValueError as error:
+        raise BagError(f'what was played cannot be played here: {error}') from None
 
 
 def config_of(recording: Recording) -> Entry:

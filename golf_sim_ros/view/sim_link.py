@@ -41,7 +41,7 @@ from ..nodes.conversions import strike, triple, Vector
 from ..nodes.lifecycle import EventsExecutor
 from ..nodes.reachability import ours, Reach, RESULT
 from ..recording.bag import BagError
-from ..recording.journal import JournalError, opened
+from ..recording.journal import beginning, JournalError, opened
 from ..recording.replay import course_of
 
 LASTING = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -86,6 +86,7 @@ class SimLink:
         check_namespace(namespace)
         self.ended = threading.Event()
         self.start: int | None = None
+        self.beginning: tuple[int, int] | None = None
         self.of_balls: list[Any] = []
         self.names: list[str] = []
         self.told: tuple[bool, ...] | None = None
@@ -156,7 +157,7 @@ class SimLink:
             entry = opened(message.data)
         except JournalError:
             return
-        if entry['kind'] == 'config' and entry['start'] != self.start:
+        if entry['kind'] == 'config' and beginning(entry) != self.beginning:
             self.begin(entry)
         elif entry['kind'] == 'strike' and self.start is not None and entry['ball'] in self.names:
             time = entry['tick'] / self.rate
@@ -166,6 +167,7 @@ class SimLink:
 
     def begin(self, config: dict[str, Any]) -> None:
         """Follow a sim that has just been started, or that is newly seen."""
+        self.beginning = beginning(config)
         self.start, self.rate = config['start'], config['parameters']['rate']
         for subscription in self.of_balls:
             self.node.destroy_subscription(subscription)

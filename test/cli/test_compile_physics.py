@@ -19,6 +19,20 @@ from golf_sim_ros.physics.engine.engines import missing
 from golf_sim_ros.physics.jit import build, cache
 import pytest
 
+NARROW = """\
+format: 1
+name: Narrow
+ground:
+- shape: patch
+  center: [0, 0, 0]
+  normal: [0, 0, 1]
+  heading: 0
+  length: 0.1
+  width: 0.1
+  material: green
+tee: [0, 0]
+"""
+
 
 @pytest.mark.skipif(bool(missing()), reason=missing() or 'numba is here')
 def test_it_says_where_what_is_compiled_is_kept(capsys):
@@ -34,6 +48,14 @@ def test_without_numba_it_says_how_to_get_it(capsys, monkeypatch):
     assert (
         told.err.splitlines()[-1] == 'compile_physics: numba is not installed: pip install numba'
     )
+
+
+def test_a_tee_for_one_ball_is_one_line(capsys, tmp_path):
+    path = tmp_path / 'narrow.yaml'
+    path.write_text(NARROW)
+    assert main(['--course', str(path)]) == 1
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith('compile_physics: ') and 'do not fit beside each other' in line
 
 
 def test_an_unknown_course_is_one_line(capsys):

@@ -210,6 +210,10 @@ def digest_changed(entry):
     entry['course']['digest'] = '0' * 64
 
 
+def effects_unknown(entry):
+    entry['parameters']['effects'] = ['gravity', 'rain']
+
+
 @pytest.mark.parametrize(
     'change, reason',
     [
@@ -223,9 +227,20 @@ def digest_changed(entry):
             lambda told: changed(told, reseal('config', digest_changed), 'journal'),
             'is not the one',
         ),
+        (
+            lambda told: changed(told, reseal('config', effects_unknown), 'journal'),
+            "effect 'rain' is unknown",
+        ),
         (lambda told: told[1:], 'the beginning of its journal'),
     ],
-    ids=['no journal', 'foreign', 'a byte of a strike', 'another course', 'no configuration'],
+    ids=[
+        'no journal',
+        'foreign',
+        'a byte of a strike',
+        'another course',
+        'an effect',
+        'no configuration',
+    ],
 )
 def test_what_cannot_be_run_again_is_one_line_and_exit_code_1(
     told, tmp_path, capsys, change, reason

@@ -179,6 +179,18 @@ def test_a_recorder_that_cannot_write_says_so_in_one_line(start, tmp_path):
     assert process.output.startswith('record_play: ') and process.output.count('\n') == 1
 
 
+@pytest.mark.parametrize(
+    'wrong', [('--namespace', 'a b'), ('--ros-args', '-r', 'no rule')], ids=' '.join
+)
+def test_a_recorder_that_cannot_listen_says_so_in_one_line_and_leaves_nothing(
+    start, tmp_path, wrong
+):
+    process = start('cli.record_play', '-o', str(tmp_path / 'bag'), *wrong)
+    assert process.wait() == 1
+    assert process.output.startswith('record_play: ') and process.output.count('\n') == 1
+    assert not (tmp_path / 'bag').exists()
+
+
 def test_a_recorder_without_a_sim_leaves_a_complete_bag(start, tmp_path):
     arguments = ('-o', str(tmp_path / 'bag'), '--namespace', '/nowhere', '--balls', 'red')
     process = start('cli.record_play', *arguments)

@@ -107,6 +107,25 @@ def test_each_sim_and_each_of_its_starts_is_a_recording_of_its_own(told, tmp_pat
     )
 
 
+def test_a_start_at_the_same_time_is_another_one(told, tmp_path):
+    again = recorded_play.Sim(session=7)
+    again.play([(3, 'strike', ('blue', CHIP, SPIN))], 100)
+    later = [
+        (topic, kind, received + 10**12, message) for topic, kind, received, message in again.told
+    ]
+    plays = read_bag(bag(tmp_path / 'bag', [*told, *later]))
+    assert [(play.start, play.config['session']) for play in plays] == [(START, 0), (START, 7)]
+    assert [play.journal[1]['ball'] for play in plays] == ['red', 'blue']
+
+
+def test_journals_of_others_beside_ours_do_no_harm(told, tmp_path):
+    (whole,) = read_bag(bag(tmp_path / 'bag', told))
+    diary = made('std_msgs/msg/String', data='dear diary')
+    more = [*told, ('/robot/journal', 'std_msgs/msg/String', START, diary)]
+    (found,) = read_bag(bag(tmp_path / 'more', more))
+    assert same(found, whole)
+
+
 def test_a_play_without_journal_can_be_read(told, tmp_path):
     (recording,) = read_bag(bag(tmp_path / 'bag', without(told, 'journal')))
     assert recording.journal == () and recording.config is None
