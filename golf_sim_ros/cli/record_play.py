@@ -158,18 +158,26 @@ def parser() -> argparse.ArgumentParser:
 def main(args: list[str] | None = None) -> int:
     """Record until a signal ends it; return the exit code."""
     args = sys.argv if args is None else args
-    ending = Ending()
-    ending.be_patient()
     complete_environment()
     try:
         options = parser().parse_args(remove_ros_args(args)[1:])
+    except RuntimeError as error:  # of rcl
+        return failed(f'arguments for ROS: {error}', 2)
+    ending = Ending()
+    ending.be_patient()
+    try:
         rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
         return recorded(options, ending)
     except (CannotRecord, NameValidationException, OSError, RuntimeError) as error:
-        print(f'record_play: {unsafe() or " ".join(str(error).split())}', file=sys.stderr)
-        return 1
+        return failed(unsafe() or error, 1)
     finally:
         rclpy.try_shutdown()
+
+
+def failed(reason: object, code: int) -> int:
+    """Say in one line why nothing is recorded; return the exit code."""
+    print(f'record_play: {" ".join(str(reason).split())}', file=sys.stderr)
+    return code
 
 
 def recorded(options: argparse.Namespace, ending: Ending) -> int:

@@ -180,13 +180,15 @@ def test_a_recorder_that_cannot_write_says_so_in_one_line(start, tmp_path):
 
 
 @pytest.mark.parametrize(
-    'wrong', [('--namespace', 'a b'), ('--ros-args', '-r', 'no rule')], ids=' '.join
+    'wrong, code',
+    [(('--namespace', 'a b'), 1), (('--ros-args', '-r', 'no rule'), 2)],
+    ids=['namespace', 'arguments for ROS'],
 )
 def test_a_recorder_that_cannot_listen_says_so_in_one_line_and_leaves_nothing(
-    start, tmp_path, wrong
+    start, tmp_path, wrong, code
 ):
     process = start('cli.record_play', '-o', str(tmp_path / 'bag'), *wrong)
-    assert process.wait() == 1
+    assert process.wait() == code
     assert process.output.startswith('record_play: ') and process.output.count('\n') == 1
     assert not (tmp_path / 'bag').exists()
 
