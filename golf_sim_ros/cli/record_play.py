@@ -31,6 +31,7 @@ from rclpy.utilities import remove_ros_args
 
 from .closed_pipe import in_pipes, say
 from .play_topics import of_ball, OF_SIM, Topic
+from ..nodes.command_line import explained
 from ..nodes.environment import complete_environment, unsafe
 from ..nodes.lifecycle import Ending, EventsExecutor
 from ..recording.bag_writer import BagWriter, CannotRecord
@@ -161,8 +162,8 @@ def main(args: list[str] | None = None) -> int:
     complete_environment()
     try:
         options = parser().parse_args(remove_ros_args(args)[1:])
-    except RuntimeError as error:  # of rcl
-        return failed(f'arguments for ROS: {error}', 2)
+    except RuntimeError as error:  # the base of all that rcl raises
+        return failed(f'arguments for ROS: {explained(error)}', 2)
     ending = Ending()
     ending.be_patient()
     try:
@@ -181,19 +182,20 @@ def failed(reason: object, code: int) -> int:
 
 
 def recorded(options: argparse.Namespace, ending: Ending) -> int:
-    """Record one bag; return the exit code."""
+    """Record one bag; return the exit code. Of one that fails before any message nothing stays."""
     bag = BagWriter(options.output, options.storage)
     try:
         recorder = Recorder(bag, options.namespace, options.balls)
+        say(f'waiting for a sim in {recorder.get_namespace()}')
+        try:
+            record(recorder, ending)
+        finally:
+            recorder.complete()
+            recorder.destroy_node()
     except BaseException:
-        bag.discard()
+        if not bag.count:
+            bag.discard()
         raise
-    say(f'waiting for a sim in {recorder.get_namespace()}')
-    try:
-        record(recorder, ending)
-    finally:
-        recorder.complete()
-        recorder.destroy_node()
     say(f'{bag.count} messages in {bag.path}')
     return 0
 

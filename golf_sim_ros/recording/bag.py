@@ -132,9 +132,9 @@ def read_bag(path: str | PathLike[str]) -> tuple[Recording, ...]:
         told = raw_messages(Path(path))
     except (BagError, OSError, MemoryError) as error:
         raise BagError(f'{path}: {error}') from None
-    # Others may have a journal, too: an entry of ours has its seal.
-    ours = sims_with('shot/result', told) | sims_with('journal', told, SEAL.encode())
-    sims = ours or sims_with('journal', told)
+    # Others may have such topics, too: an entry of ours has its seal, and a result its status.
+    ours = sims_with('journal', told, SEAL) | sims_with('shot/result', told, '"status"')
+    sims = ours or sims_with('journal', told) | sims_with('shot/result', told)
     if not sims:
         raise BagError(
             f'{path}: no play is in it: neither a topic `journal` nor one `shot/result`'
@@ -156,12 +156,12 @@ def read_bag(path: str | PathLike[str]) -> tuple[Recording, ...]:
     )
 
 
-def sims_with(end: str, told: Iterable[Raw], part: bytes = b'') -> set[str]:
+def sims_with(end: str, told: Iterable[Raw], part: str = '') -> set[str]:
     """Namespaces with a topic of texts that ends so, of which one at least has that `part`."""
     return {
         topic.removesuffix(f'/{end}')
         for _, topic, kind, raw in told
-        if topic.endswith(f'/{end}') and kind == TEXT and part in raw
+        if topic.endswith(f'/{end}') and kind == TEXT and part.encode() in raw
     }
 
 

@@ -89,9 +89,12 @@ class BagWriter:
         self.writer.close()
 
     def discard(self) -> None:
-        """Remove the bag, of which nothing is wanted."""
-        self.close()
-        rmtree(self.path)
+        """Remove the folder of a bag, closed or not."""
+        try:
+            if self.writer.storage:
+                self.writer.close()
+        finally:
+            rmtree(self.path)
 
 
 def qos(reliability: str, durability: str, depth: int) -> Any:

@@ -14,6 +14,7 @@
 
 """The journal over DDS: what is recorded of a sim runs again to the bit."""
 
+import json
 import signal
 
 from geometry_msgs.msg import PointStamped, Vector3Stamped
@@ -158,13 +159,16 @@ def test_who_comes_late_gets_the_last_of_the_journal_and_the_configuration(
             lambda: abs(place(golfer.poses[-1])[0] - message.point.x) < 1e-9, 'the ball was placed'
         )
     golfer.reset()
-    late = make_client('/journal').listen(String, 'journal', LASTING)
+    client = make_client('/journal')
+    late, beats = client.listen(String, 'journal', LASTING), client.listen(String, 'heartbeat')
     wait_until(
         lambda: '"kind": "config"' in ''.join(message.data for message in late), 'the journal came'
     )
     config, *entries = sorted(
         (opened(message.data) for message in late), key=lambda entry: entry['entry']
     )
+    wait_until(lambda: beats, 'the heart beat')
+    assert config['session'] == json.loads(beats[0].data)['session']
     assert config['parameters']['balls'] == ['ball'] and len(config['course']['digest']) == 64
     assert {entry['kind'] for entry in entries[:-1]} == {'place'} and entries[-1][
         'kind'
@@ -179,18 +183,25 @@ def test_a_recorder_that_cannot_write_says_so_in_one_line(start, tmp_path):
     assert process.output.startswith('record_play: ') and process.output.count('\n') == 1
 
 
-@pytest.mark.parametrize(
-    'wrong, code',
-    [(('--namespace', 'a b'), 1), (('--ros-args', '-r', 'no rule'), 2)],
-    ids=['namespace', 'arguments for ROS'],
-)
-def test_a_recorder_that_cannot_listen_says_so_in_one_line_and_leaves_nothing(
-    start, tmp_path, wrong, code
+@pytest.mark.parametrize('arguments', ['-r foo', '-p foo', '--foo'])
+def test_wrong_arguments_for_ros_end_a_recorder_with_two_and_no_traceback(
+    start, tmp_path, arguments
 ):
-    process = start('cli.record_play', '-o', str(tmp_path / 'bag'), *wrong)
-    assert process.wait() == code
-    assert process.output.startswith('record_play: ') and process.output.count('\n') == 1
-    assert not (tmp_path / 'bag').exists()
+    bag = tmp_path / 'bag'
+    process = start('cli.record_play', '-o', str(bag), '--ros-args', *arguments.split())
+    assert process.wait() == 2
+    assert process.lines[-1].startswith('record_play: arguments for ROS: ')
+    assert 'Traceback' not in process.output and not bag.exists()
+
+
+@pytest.mark.parametrize('storage', ['mcap', 'sqlite3'])
+@pytest.mark.parametrize('argument', ['--namespace', '--balls'])
+def test_a_recorder_that_cannot_begin_leaves_no_bag(start, tmp_path, argument, storage):
+    bag = tmp_path / 'bag'
+    process = start('cli.record_play', '-o', str(bag), '--storage', storage, argument, 'a b')
+    assert process.wait() == 1
+    assert process.lines[-1].startswith('record_play: Invalid ')
+    assert process.output.count('record_play: ') == 1 and not bag.exists()
 
 
 def test_a_recorder_without_a_sim_leaves_a_complete_bag(start, tmp_path):

@@ -153,7 +153,7 @@ def test_view_play_publishes_nothing_whatever_it_is_sent(url, client):
 
 
 def test_a_sim_that_is_killed_is_told_of_and_its_successor_is_followed(start, make_golfer):
-    first = start('sim_node', *parameters('/mortal', course='links'))
+    first = start('sim_node', *parameters('/mortal', course='links', publish_clock='true'))
     _, url = served(start, 'cli.view_play', '--namespace', '/mortal')
     with listening(url) as page:
         page.wait_for('course')
@@ -161,7 +161,8 @@ def test_a_sim_that_is_killed_is_told_of_and_its_successor_is_followed(start, ma
         first.popen.send_signal(signal.SIGKILL)
         wait_until(lambda: not page.of('status')[-1]['reached'], 'it is lost')
         assert 'cannot be reached' in page.of('status')[-1]['text']
-        start('sim_node', *parameters('/mortal', course='putting_green'))
+        # Its simulated time, too, begins at a ROS time of 0.
+        start('sim_node', *parameters('/mortal', course='putting_green', publish_clock='true'))
         page.wait_for('course', 2)
         wait_until(lambda: page.of('status')[-1]['reached'], 'it is back')
         assert page.of('course')[0] != page.of('course')[-1]
@@ -264,14 +265,16 @@ def test_an_own_process_that_dies_ends_the_terminal_with_one_line_and_code_1(sta
     assert not left_of(process.pid)
 
 
-def test_what_cannot_be_played_is_one_line(start):
-    for arguments, told in (
-        (('nowhere',), 'nowhere'),
-        (('links', '--namespace', '/x'), 'name none'),
-        (('--namespace', 'a b'), 'Invalid namespace'),
-        (('--host', 'nowhere.invalid'), 'nowhere.invalid: '),
+def test_what_cannot_be_played_or_seen_is_one_line(start):
+    for command, arguments, told in (
+        ('play_hole', ('nowhere',), 'nowhere'),
+        ('play_hole', ('links', '--namespace', '/x'), 'name none'),
+        ('play_hole', ('--namespace', 'a b'), 'Invalid namespace'),
+        ('play_hole', ('--terminal', '--namespace', 'a b'), 'Invalid namespace'),
+        ('play_hole', ('--host', 'nowhere.invalid'), 'nowhere.invalid: '),
+        ('view_play', ('--namespace', 'a b'), 'Invalid namespace'),
     ):
-        process = start('cli.play_hole', *arguments)
+        process = start(f'cli.{command}', *arguments)
         assert process.wait() == 1
         assert told in process.output and len(process.output.splitlines()) == 1
         assert 'no port' not in process.output

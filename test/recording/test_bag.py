@@ -118,10 +118,14 @@ def test_a_start_at_the_same_time_is_another_one(told, tmp_path):
     assert [play.journal[1]['ball'] for play in plays] == ['red', 'blue']
 
 
-def test_journals_of_others_beside_ours_do_no_harm(told, tmp_path):
+def test_journals_and_results_of_others_beside_ours_do_no_harm(told, tmp_path):
     (whole,) = read_bag(bag(tmp_path / 'bag', told))
     diary = made('std_msgs/msg/String', data='dear diary')
-    more = [*told, ('/robot/journal', 'std_msgs/msg/String', START, diary)]
+    more = [
+        *told,
+        ('/robot/journal', 'std_msgs/msg/String', START, diary),
+        ('/gun/shot/result', 'std_msgs/msg/String', START, diary),
+    ]
     (found,) = read_bag(bag(tmp_path / 'more', more))
     assert same(found, whole)
 
