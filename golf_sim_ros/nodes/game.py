@@ -85,7 +85,7 @@ class Game:
         self.diagnostics = Diagnostics()
         world.measure()
         self.steps_a_scene = max(1, round(given.publish_rate / SCENE_RATE))
-        self.steps = self.shots = 0  # shots: strikes received
+        self.steps = self.shots = 0  # shots: strikes taken or rejected
         # Of strikes under way, by those of the world, which counts only what it accepts.
         self.numbers: dict[int, int] = {}
         self.inputs: list[Callable[[], None]] = []
@@ -131,22 +131,21 @@ class Game:
             return
         if moving:
             self.takeover.note(spent, passed)
-        self.advance_by_portions(moving)
+        self.do_ticks(moving)
 
-    def advance_by_portions(self, moving: bool) -> None:
-        """Advance by the ticks that are due, publishing after each portion."""
-        done = 0
-        for ticks in self.real_time.portions(CATCH_UP if moving else REST_CATCH_UP, self.busy):
-            if done and self.world.moving:
+    def do_ticks(self, moving: bool) -> None:
+        """Advance by the ticks that are due, publishing in between where they are many."""
+        time, done = self.real_time, 0
+        for publishes_first in time.ticks(CATCH_UP if moving else REST_CATCH_UP, self.busy):
+            if publishes_first and self.world.moving:
                 with self.diagnostics.publishing():
                     self.notify_balls()
-            for _ in range(ticks):
-                self.tick()
-                if self.real_time.hurries and not self.world.moving:
-                    return
-            done += ticks
-        if moving and not self.real_time.hurries:
-            self.diagnostics.count(done, self.real_time.usual * self.real_time.factor)
+            self.tick()
+            done += 1
+            if time.hurries and not self.world.moving:
+                return
+        if moving and not time.hurries:
+            self.diagnostics.count(done, time.usual * time.factor)
 
     def tick(self) -> None:
         """Advance by one tick and publish its events."""

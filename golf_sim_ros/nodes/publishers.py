@@ -181,7 +181,7 @@ class Publishers:
             self.of_journal.publish(String(data=self.config))
 
     def heartbeat(self, shots: int, paused: bool) -> None:
-        """Publish the heartbeat: number of the session, strikes received, whether it is paused."""
+        """Publish the heartbeat: session, strikes taken or rejected, whether it is paused."""
         self.of_heartbeat.publish(
             String(data=text({'session': self.session, 'shots': shots, 'paused': paused}))
         )

@@ -50,27 +50,31 @@ class RealTime:
         """Whether time passes as fast as it can."""
         return self.factor == 0.0
 
-    def portions(self, limit: float, busy: float) -> Iterator[int]:
-        """Ticks to do now, in portions after each of which it is time to publish.
+    def ticks(self, limit: float, busy: float) -> Iterator[bool]:
+        """Yield for each tick to do now whether it is time to publish before it.
 
         At most `limit` [s] of wall time count, and the ticks go on for `LONGEST` of it; where time
         `hurries`, for `busy` [s].
         """
         if self.hurries:
-            until = monotonic() + busy
             self.skip()
-            while monotonic() < until:
-                yield self.usual
+            yield from self.ticks_until(monotonic() + busy)
             return
-        ticks = self.due(limit)
+        due = self.due(limit)
         until = monotonic() + LONGEST
-        while ticks >= 2 * self.usual:
-            yield self.usual
-            ticks -= self.usual
-            if monotonic() > until:
-                self.lost += ticks * self.tick / self.factor
+        for done in range(due):
+            if done and monotonic() > until:
+                self.lost += (due - done) * self.tick / self.factor
                 return
-        yield ticks
+            # After the last ticks the step publishes anyway.
+            yield done > 0 and done % self.usual == 0 and due - done >= self.usual
+
+    def ticks_until(self, end: float) -> Iterator[bool]:
+        """Yield as `ticks` does until the clock shows `end` [s]."""
+        done = 0
+        while monotonic() < end:
+            yield done > 0 and done % self.usual == 0
+            done += 1
 
     def due(self, limit: float) -> int:
         """Count the ticks to do now; at most `limit` [s] of wall time count."""

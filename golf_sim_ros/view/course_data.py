@@ -40,7 +40,7 @@ CELLS = 130_000  # heights at most
 TEXELS = 2_800_000  # places at most of which the material is told
 FINEST = 0.25  # m between heights at least
 TEXEL = 5  # materials to a height, along each axis
-RANGE = 16_000  # steps of height on either side of the mean: 16 bits hold twice as many
+RANGE = 16_000  # steps of height on either side of the mean: 16 bits hold any difference
 
 
 class CourseData(NamedTuple):

@@ -35,8 +35,10 @@ async def demonstrate(
         while not is_watched():
             await asyncio.sleep(LOOK)
         await play_hole(session, worker, game.link.strike, MOMENT)
+        played = session.round.holes[-1:]
         await asyncio.sleep(ADMIRE)
-        await game.go_on()
+        if session.round.holes[-1:] == played:  # nobody has gone on meanwhile
+            await game.go_on()
 
 
 async def play_hole(session: Session, worker: Worker, strike: Callable, moment: float) -> None:

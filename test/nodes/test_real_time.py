@@ -28,7 +28,7 @@ def clock(monkeypatch):
 
 
 def ticks(real_time, limit=10.0):
-    return sum(real_time.portions(limit, 0.0))
+    return sum(1 for _ in real_time.ticks(limit, 0.0))
 
 
 @pytest.mark.parametrize('factor', [0.1, 1.0, 2.5, 30.0])
@@ -54,22 +54,22 @@ def test_what_the_simulation_stood_still_for_does_not_count(clock):
     assert ticks(steady) == 0 and steady.lost == 0.0
 
 
-def test_many_ticks_come_in_portions_of_the_usual_size(clock):
+def test_between_many_ticks_it_is_time_to_publish_after_the_usual_number(clock):
     steady = RealTime(0.01, 5)
     clock[0] += 0.1401
-    assert list(steady.portions(1.0, 0.0)) == [5, 9]
+    told = list(steady.ticks(1.0, 0.0))
+    assert len(told) == 14 and [number for number, due in enumerate(told) if due] == [5]
 
 
 def test_ticks_that_take_too_long_stop_and_the_rest_is_lost_and_counted(clock):
-    steady = RealTime(0.001, 10, 2.0)
+    steady, done = RealTime(0.001, 1000, 2.0), 0
     clock[0] += 1.00001
-    portions = []
-    for ticks in steady.portions(2.0, 0.0):
-        portions.append(ticks)
+    for _ in steady.ticks(2.0, 0.0):
+        done += 1
         clock[0] += 0.1
-    assert portions == [10, 10, 10]
-    assert steady.lost == pytest.approx((2000 - 30) * 0.001 / 2.0)
-    assert sum(steady.portions(0.0, 0.0)) == 0  # nothing of it is made up
+    assert done == 3
+    assert steady.lost == pytest.approx((2000 - done) * 0.001 / 2.0)
+    assert ticks(steady, 0.0) == 0  # nothing of it is made up
 
 
 def test_a_changed_factor_counts_from_then_on(clock):
@@ -82,9 +82,9 @@ def test_a_changed_factor_counts_from_then_on(clock):
 
 
 def test_who_hurries_goes_on_for_as_long_as_it_may(clock):
-    hasty = RealTime(0.01, 5, 0.0)
-    portions = []
-    for ticks in hasty.portions(1.0, 0.05):
-        portions.append(ticks)
-        clock[0] += 0.0201
-    assert portions == [5, 5, 5] and hasty.lost == 0.0
+    hasty, told = RealTime(0.01, 5, 0.0), []
+    for due in hasty.ticks(1.0, 0.05):
+        told.append(due)
+        clock[0] += 0.00402
+    assert len(told) == 13 and hasty.lost == 0.0
+    assert [number for number, due in enumerate(told) if due] == [5, 10]
