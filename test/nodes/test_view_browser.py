@@ -271,6 +271,7 @@ def test_after_the_mouse_has_been_used_arrow_keys_aim_and_set_the_power(open_pag
     wait_until(lambda: '0.4° right' in panel.inner_text(), 'the stroke is aimed')
     click(page, panel.locator('.q-slider').first.bounding_box())
     wait_until(lambda: '59 %' in panel.inner_text(), 'the power is set by the mouse')
+    page.evaluate('new Promise((done) => setTimeout(done, 100))')  # sliders tell again at 50 ms
     page.keyboard.press('ArrowUp')
     wait_until(lambda: '60 %' in panel.inner_text(), 'the power is set by a key')
     assert name in panel.inner_text() and '0.4° right' in panel.inner_text()
