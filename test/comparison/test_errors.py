@@ -30,8 +30,14 @@ LAUNCHES = (
 )
 
 
+@pytest.fixture(autouse=True)
+def in_plain_python(monkeypatch):
+    """Play in plain Python: few shots, of which each law would be compiled apart."""
+    monkeypatch.setenv('GOLF_SIM_ROS_ENGINE', 'python')
+
+
 def compared(told, laws=('fitted',), **more):
-    """Compare the launches with what was told, in plain Python: few shots."""
+    """Compare the launches with what was told."""
     shots = MonitorShots(('a', 'b', 'a'), LAUNCHES, told, UNKNOWN, {})
     return compare(shots, laws, UNITS['si'], **more)
 
