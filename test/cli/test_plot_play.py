@@ -140,7 +140,8 @@ def test_a_namespace_is_found(tmp_path, capsys):
     ],
 )
 def test_what_can_not_be_drawn_is_one_line_and_exit_code_1(bag, arguments, reason, capsys):
-    assert main([str(bag[0]) if word == 'BAG' else word for word in arguments]) == 1
+    words = [str(bag[0]) if word == 'BAG' else word for word in arguments]
+    assert main([*words, '--dpi', '50']) == 1
     said = capsys.readouterr().err
     assert said.startswith('plot_play: ') and reason in said and said.count('\n') == 1
 
@@ -160,7 +161,7 @@ def test_it_needs_no_ros_and_says_what_else_is_missing(bag, tmp_path, missing, c
         f'from golf_sim_ros.cli.plot_play import main; sys.exit(main(sys.argv[1:]))'
     )
     run = subprocess.run(
-        [sys.executable, '-c', source, str(bag[0]), '-o', str(tmp_path / 'play.png')],
+        [sys.executable, '-c', source, str(bag[0]), '-o', str(tmp_path / 'play.png'), '--dpi', '50'],
         cwd=ROOT,
         capture_output=True,
         text=True,

@@ -68,6 +68,21 @@ def eighteen():
     ]
 
 
+@pytest.fixture(scope='module')
+def picture_of_a_drive(drive):
+    return drawing.picture([drive], COURSE)
+
+
+@pytest.fixture(scope='module')
+def picture_of_two(drive, putt):
+    return drawing.picture([drive, putt], COURSE)
+
+
+@pytest.fixture(scope='module')
+def picture_of_eighteen(eighteen):
+    return drawing.picture(eighteen, COURSE)
+
+
 def axes(figure, label):
     """Find the part of a picture called `label`."""
     return next(part for part in figure.axes if part.get_label() == label)
@@ -84,29 +99,28 @@ def texts(figure, label):
     return [text.get_text() for text in axes(figure, label).texts]
 
 
-def test_paths_begin_at_the_strike_and_end_where_the_ball_rests(drive, putt):
-    figure = drawing.picture([drive, putt], COURSE)
+def test_paths_begin_at_the_strike_and_end_where_the_ball_rests(drive, putt, picture_of_two):
     for told in (drive, putt):
         x, y, z = told.result.position
-        assert path(figure, 'above', told.result.shot)[-1] == pytest.approx((x, y))
-        assert path(figure, 'side', told.result.shot)[-1] == pytest.approx((x, z))
-        assert path(figure, 'above', told.result.shot)[0] == pytest.approx(told.positions[0, :2])
+        above, side = (path(picture_of_two, part, told.result.shot) for part in ('above', 'side'))
+        assert above[-1] == pytest.approx((x, y)) and side[-1] == pytest.approx((x, z))
+        assert above[0] == pytest.approx(told.positions[0, :2])
 
 
-def test_charts_show_speed_height_and_spin_from_the_strike_to_the_end(drive):
-    figure = drawing.picture([drive], COURSE)
-    speed, height, spin = (path(figure, label, 1) for label in ('speed', 'height', 'spin'))
+def test_charts_show_speed_height_and_spin_from_the_strike_to_the_end(drive, picture_of_a_drive):
+    speed, height, spin = (
+        path(picture_of_a_drive, label, 1) for label in ('speed', 'height', 'spin')
+    )
     assert speed[0] == pytest.approx((0.0, math.hypot(*DRIVE.velocity)))
     assert speed[-1] == pytest.approx((drive.result.duration, 0.0), abs=1e-9)
     assert height[:, 1].max() == pytest.approx(drive.result.apex, abs=0.01)
     assert spin[0] == pytest.approx((0.0, math.hypot(*DRIVE.spin)))
 
 
-def test_every_bounce_is_marked_where_it_was(drive):
-    figure = drawing.picture([drive], COURSE)
+def test_every_bounce_is_marked_where_it_was(drive, picture_of_a_drive):
     marked = [
         line.get_xydata()
-        for line in axes(figure, 'above').lines
+        for line in axes(picture_of_a_drive, 'above').lines
         if line.get_marker() == 'o' and len(line.get_xdata()) == len(drive.collisions)
     ]
     assert len(drive.collisions) > 3
@@ -123,10 +137,10 @@ def test_a_path_touches_the_ground_in_a_bounce_and_its_speed_breaks_there(drive)
     assert (np.diff(fine.times) >= 0.0).all()
 
 
-def test_all_that_was_played_lies_inside_the_views(eighteen):
-    figure = drawing.picture(eighteen, COURSE)
+def test_all_that_was_played_lies_inside_the_views(eighteen, picture_of_eighteen):
     for label, rows in (('above', (0, 1)), ('side', (0, 2))):
-        (left, right), (low, high) = axes(figure, label).get_xlim(), axes(figure, label).get_ylim()
+        part = axes(picture_of_eighteen, label)
+        (left, right), (low, high) = part.get_xlim(), part.get_ylim()
         for told in eighteen:
             x, y = told.positions[:, rows].T
             assert left < x.min() and x.max() < right and low < y.min() and y.max() < high
@@ -193,8 +207,10 @@ def test_where_there_is_no_ground_none_is_drawn():
     assert list(numbers) == [0, -1] and heights[0] == 0.0 and np.isnan(heights[1])
 
 
-def test_the_table_has_a_row_for_every_shot_and_none_of_a_flight_for_a_putt(drive, putt):
-    written = texts(drawing.picture([drive, putt], COURSE), 'table')
+def test_the_table_has_a_row_for_every_shot_and_none_of_a_flight_for_a_putt(
+    drive, putt, picture_of_two
+):
+    written = texts(picture_of_two, 'table')
     assert f'{drive.result.carry:.2f}' in written
     assert f'{drive.result.total:.2f}' in written and f'{putt.result.total:.2f}' in written
     assert written.count('–') == 4
@@ -207,8 +223,8 @@ def test_shots_of_two_balls_are_told_apart(drive, putt):
     assert 'ball' in written and 'red' in written
 
 
-def test_eighteen_shots_have_eighteen_colours_and_numbers_that_do_not_overlap(eighteen):
-    figure = drawing.picture(eighteen, COURSE)
+def test_eighteen_shots_have_eighteen_colours_and_numbers_that_do_not_overlap(picture_of_eighteen):
+    figure = picture_of_eighteen
     lines = [
         line for line in axes(figure, 'above').lines if str(line.get_label()).startswith('shot ')
     ]
@@ -223,16 +239,15 @@ def test_eighteen_shots_have_eighteen_colours_and_numbers_that_do_not_overlap(ei
     )
 
 
-def test_cells_of_the_table_do_not_overlap(eighteen):
-    figure = drawing.picture(eighteen, COURSE)
-    figure.draw_without_rendering()
-    boxes = [text.get_window_extent() for text in axes(figure, 'table').texts if text.get_text()]
+def test_cells_of_the_table_do_not_overlap(picture_of_eighteen):
+    picture_of_eighteen.draw_without_rendering()
+    written = axes(picture_of_eighteen, 'table').texts
+    boxes = [text.get_window_extent() for text in written if text.get_text()]
     assert not any(one.overlaps(other) for i, one in enumerate(boxes) for other in boxes[:i])
 
 
-def test_the_wind_is_told_in_words_and_as_arrows(drive):
-    figure = drawing.picture([drive], COURSE)
-    assert 'wind 3.6 to 5.0 m/s' in ' '.join(texts(figure, 'wind'))
+def test_the_wind_is_told_in_words_and_as_arrows(picture_of_a_drive):
+    assert 'wind 3.6 to 5.0 m/s' in ' '.join(texts(picture_of_a_drive, 'wind'))
     still = drawing.picture([shot(PUTT)], COURSE)
     assert texts(still, 'wind') == ['calm']
 
@@ -245,9 +260,8 @@ def test_only_gusts_that_blew_during_the_shot_are_told(putt):
     assert drawing.wind.speeds([late._replace(times=late.times + 2.0)]) == (2.0, 2.0)
 
 
-def test_ends_near_the_hole_are_drawn_once_more(drive, putt):
-    figure = drawing.picture([drive, putt], COURSE)
-    part = axes(figure, 'hole')
+def test_ends_near_the_hole_are_drawn_once_more(putt, picture_of_two):
+    part = axes(picture_of_two, 'hole')
     assert np.ptp(part.get_xlim()) == pytest.approx(np.ptp(part.get_ylim()))
     x, y, _ = putt.result.position
     assert (

@@ -15,12 +15,24 @@
 """Courses and shots that tests of the physics share.
 
 A new combination of effects takes half a minute to compile, so nearly all tests use one of two:
-EVERYTHING, which does nothing more on hard ground than on soft, and GRAVITY.
+EVERYTHING, which does nothing more on hard ground than on soft, and GRAVITY. Worlds share one
+program whatever their effects, so hundreds of shots with others are played `one_by_one`, and a
+few in plain Python.
 """
 
 from math import cos, radians, sin
 
-from golf_sim_ros.physics import ACCURACY, Course, Material, Patch, PENNER, Plane, Restitution
+from golf_sim_ros.physics import (
+    ACCURACY,
+    Course,
+    Material,
+    Patch,
+    PENNER,
+    Plane,
+    Restitution,
+    Result,
+    World,
+)
 from golf_sim_ros.physics.response.ground_impact import ON_RELIEF
 import numpy as np
 
@@ -101,6 +113,17 @@ def random_shots(n, seed):
     axes = rng.normal(size=(n, 3))
     spins = axes / np.linalg.norm(axes, axis=1)[:, None] * rng.uniform(0, 1000, n)[:, None]
     return velocities, spins
+
+
+def one_by_one(course, velocities, spins, **how):
+    """Play shots in one world: their results, a dict of arrays by the fields of `Result`."""
+    world, ends = World(course, **how), []
+    for velocity, spin in zip(velocities, spins):
+        world.reset()
+        world.strike('ball', velocity, spin)
+        ends += [event for event in world.advance(301.0) if isinstance(event, Result)]
+    assert len(ends) == len(velocities)
+    return {name: np.array(told) for name, told in zip(Result._fields, zip(*ends))}
 
 
 def first_touches(shots, velocities):

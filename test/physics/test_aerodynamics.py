@@ -19,8 +19,8 @@ from math import pi
 from pathlib import Path
 import sys
 
-from driving_range import launched, level, TURF
-from golf_sim_ros.physics import Air, LogProfile, PowerProfile, simulate_many, UniformProfile
+from driving_range import launched, level, one_by_one, TURF
+from golf_sim_ros.physics import Air, LogProfile, PowerProfile, UniformProfile
 from golf_sim_ros.physics.effects.drag import drag_coefficient, DragLaw
 from golf_sim_ros.physics.effects.magnus import lift_per_ratio, LiftLaw
 from golf_sim_ros.physics.effects.wind import blowing, share
@@ -56,7 +56,7 @@ def play(velocities, backspin, air=None, **more):
     course = level(TURF) if air is None else level(TURF, air=air)
     spins = np.zeros((len(velocities), 3))
     spins[:, 1] = -backspin
-    return simulate_many(course, velocities, spins, **more)
+    return one_by_one(course, velocities, spins, **more)
 
 
 @pytest.mark.parametrize('name', PGA)
@@ -104,7 +104,7 @@ def test_flightscope_s_model_is_met():
     right = np.tile((0.0, -1.0, 0.0), (len(spin), 1))
     above = np.cross(right, velocities / np.linalg.norm(velocities, axis=1)[:, None])
     spins = spin[:, None] * (np.cos(axis)[:, None] * right - np.sin(axis)[:, None] * above)
-    shots = simulate_many(level(TURF), velocities, spins)
+    shots = one_by_one(level(TURF), velocities, spins)
     carry = shots['carry'] / YARD - column('carry_yd')
     assert np.sqrt((carry**2).mean()) <= 2.5 and abs(carry.mean()) <= 1.5, carry
     assert np.abs(shots['apex'] / YARD - column('max_height_ft') / 3).mean() <= 1.5
@@ -168,7 +168,7 @@ def test_thin_air_and_warm_air_carry_farther():
 def test_a_tilted_spin_axis_curves_a_drive():
     tilt = 10 * DEGREE
     spin = DRIVER_SPIN[0] * np.array([[0.0, -np.cos(tilt), -np.sin(tilt)]])
-    curved = simulate_many(level(TURF), DRIVER, spin)['carry_side'][0] / YARD
+    curved = one_by_one(level(TURF), DRIVER, spin)['carry_side'][0] / YARD
     assert -30.0 <= curved <= -15.0
 
 

@@ -18,7 +18,17 @@ import csv
 from math import atan, cos, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
-from driving_range import down, EVERYTHING, GRAVITY, HARD, level, random_shots, slope, TURF
+from driving_range import (
+    down,
+    EVERYTHING,
+    GRAVITY,
+    HARD,
+    level,
+    one_by_one,
+    random_shots,
+    slope,
+    TURF,
+)
 from golf_sim_ros.physics import (
     ACCURACY,
     Collision,
@@ -99,6 +109,7 @@ def test_all_bounces_take_2v_over_g_times_1_minus_e(accuracy, e):
         np.zeros((3, 3)),
         effects=GRAVITY,
         accuracy=accuracy,
+        engine='python',
     )
     exact = [oracles.time_of_all_bounces(v, e) for v in (0.02, 3, 15)]
     np.testing.assert_allclose(up['duration'], exact, atol=EXACT)
@@ -551,7 +562,7 @@ def test_a_putt_uphill_stays_or_comes_back(tilt, rests):
 def rests_with(settle, velocities, spins, course, effects=GRAVITY):
     """Where shots in vacuum rest when rebounds slower than `settle` are summed."""
     preset = Preset(ACCURACY['reference'].method, Limits(settle, 1e-10))
-    return simulate_many(course, velocities, spins, effects=effects, accuracy=preset)
+    return one_by_one(course, velocities, spins, effects=effects, accuracy=preset)
 
 
 KINDS = {
@@ -590,7 +601,7 @@ def test_the_smallest_lift_off_ends_at_rest_on_the_ground(accuracy):
     lifts = 10.0 ** np.arange(-9, 0)
     strikes = np.array([(u, 0, lift) for lift in lifts for u in (0, 2)])
     for spins in (np.zeros_like(strikes), strikes[:, [1, 0, 1]] / RADIUS):
-        ends = simulate_many(level(TURF), strikes, spins, effects=EVERYTHING, accuracy=accuracy)
+        ends = one_by_one(level(TURF), strikes, spins, effects=EVERYTHING, accuracy=accuracy)
         assert (ends['status'] == 'at_rest').all()
         assert np.abs(ends['position'][:, 2] - RADIUS).max() < 1e-9
         assert np.isfinite(ends['total']).all() and ends['total'].max() < 3

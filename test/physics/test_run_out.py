@@ -19,7 +19,7 @@ from functools import lru_cache
 from math import atan, cos, log, pi, sin, sqrt
 from pathlib import Path
 
-from driving_range import launched, level
+from driving_range import launched, level, one_by_one
 from golf_sim_ros.course.material_file import shipped
 from golf_sim_ros.physics import ACCURACY, Course, Material, Phase, Plane, simulate_many, World
 import numpy as np
@@ -51,10 +51,17 @@ def runs(name, speeds, launches, spins, azimuths=0.0, axes=0.0):
     velocities = launched(np.atleast_1d(speeds) * MPH, np.atleast_1d(launches) * DEGREE, azimuths)
     left = np.stack((-np.sin(azimuths), np.cos(azimuths), 0.0 * azimuths), -1)
     axis = np.cos(axes)[:, None] * left + np.sin(axes)[:, None] * np.array([0.0, 0.0, 1.0])
-    shots = simulate_many(
+    shots = one_by_one(
         level(material(name)), velocities, -np.atleast_1d(spins)[:, None] * RPM * axis
     )
     return (np.hypot(*shots['position'][:, :2].T) - shots['carry']) / YARD
+
+
+def comes_back(name, speed, launch, backspin):
+    """How far a shot comes back from its carry [m]: mph, degrees, rpm."""
+    velocities = launched(np.array([speed * MPH]), launch * DEGREE)
+    found = one_by_one(level(material(name)), velocities, [(0.0, -backspin * RPM, 0.0)])
+    return found['carry'][0] - found['position'][0, 0]
 
 
 @pytest.mark.parametrize(
@@ -84,23 +91,13 @@ def test_runs_on_a_fairway_are_those_of_another_model():
 
 @pytest.mark.parametrize('mph, launch', [(102, 24.2), (104, 23.7)])
 def test_a_full_wedge_of_10000_rpm_comes_back_on_a_soft_green(mph, launch):
-    found = simulate_many(
-        level(material('soft_green')),
-        launched(np.array([mph * MPH]), launch * DEGREE),
-        [(0.0, -10000 * RPM, 0.0)],
-    )[0]
-    assert 1.0 <= found['carry'] - found['position'][0] <= 5.0
+    assert 1.0 <= comes_back('soft_green', mph, launch, 10000) <= 5.0
 
 
 @pytest.mark.parametrize('launch', [30, 40, 45, 50, 55])
 def test_a_flop_does_not_come_back_all_the_way(launch):
     for name in GREENS:
-        found = simulate_many(
-            level(material(name)),
-            launched(np.array([68 * MPH]), launch * DEGREE),
-            [(0.0, -12000 * RPM, 0.0)],
-        )[0]
-        assert found['carry'] - found['position'][0] <= 6.0
+        assert comes_back(name, 68, launch, 12000) <= 6.0
 
 
 def played(course, place, velocity, spin, tick=0.02, longest=400.0):
@@ -301,7 +298,7 @@ def test_a_fast_ball_that_slips_by_next_to_nothing_goes_as_far_as_one_that_rolls
     spins = np.linspace(0.5, 45.0, 60) / course.ball.radius
     straight = np.transpose([speeds, 0 * speeds, 0 * speeds])
     ends = [
-        simulate_many(course, straight, np.transpose([0 * spins, (1 + by) * spins, 0 * spins]))
+        one_by_one(course, straight, np.transpose([0 * spins, (1 + by) * spins, 0 * spins]))
         for by in (-1e-5, 0.0, 1e-5)
     ]
     # Static friction exceeds dynamic friction: a few balls in the range of GRIP_MARGIN part.

@@ -19,7 +19,7 @@ from math import pi
 import os
 from pathlib import Path
 
-from driving_range import launched, level
+from driving_range import launched, level, one_by_one
 from golf_sim_ros.course.material_file import shipped
 from golf_sim_ros.physics import (
     ACCURACY,
@@ -28,7 +28,8 @@ from golf_sim_ros.physics import (
     PENNER,
     Phase,
     Plane,
-    simulate_many,
+    Shot,
+    simulate,
     World,
 )
 from golf_sim_ros.physics.effects import effective_normal, turf
@@ -58,12 +59,11 @@ def ground(name):
 
 def run(material, speed, launch, backspin):
     """Carry, and how far on from there a shot ends [yd]: mph, degrees, rpm."""
-    (shot,) = simulate_many(
+    shot = simulate(
         ground(material),
-        launched(np.array([speed * MPH]), launch * DEGREE),
-        [(0.0, -backspin * RPM, 0.0)],
-    )
-    return shot['carry'] / YARD, (shot['position'][0] - shot['carry']) / YARD
+        Shot(tuple(launched(speed * MPH, launch * DEGREE)), (0.0, -backspin * RPM, 0.0)),
+    ).result
+    return shot.carry / YARD, (shot.position[0] - shot.carry) / YARD
 
 
 def test_a_full_iron_runs_on_a_little():
@@ -116,7 +116,7 @@ def test_a_ball_that_skims_on_turf_that_never_stops_to_throw_it_up_comes_to_rest
     skims = np.array([(3.0, 0.0, 0.5), (20.0, 0.0, 1.0), (40.0, 0.0, 4.0)])
     effects = 'gravity', 'drag', 'penner_2002'
     for accuracy in ACCURACY:
-        ends = simulate_many(course, skims, 0 * skims, accuracy=accuracy, effects=effects)
+        ends = one_by_one(course, skims, 0 * skims, accuracy=accuracy, effects=effects)
         assert (ends['status'] == 'at_rest').all()
         assert ends['bounces'].max() < 1000
 
