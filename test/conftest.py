@@ -14,6 +14,20 @@
 
 """Its being here makes what lies in this folder, oracles.py, importable for all tests."""
 
+import gc
+
 from golf_sim_ros.physics.engine.engines import prefer_compiled
+import pytest
 
 prefer_compiled()  # tests play thousands of shots; the nodes that they start do not look at this
+
+
+@pytest.fixture(scope='module', autouse=True)
+def what_stays_is_looked_at_once():
+    """After each file, spare garbage collections what is left: of a compiler, millions of objects.
+
+    NiceGUI's tests collect garbage twice a test, which took a second each time.
+    """
+    yield
+    gc.collect()
+    gc.freeze()
