@@ -161,7 +161,16 @@ def test_it_needs_no_ros_and_says_what_else_is_missing(bag, tmp_path, missing, c
         f'from golf_sim_ros.cli.plot_play import main; sys.exit(main(sys.argv[1:]))'
     )
     run = subprocess.run(
-        [sys.executable, '-c', source, str(bag[0]), '-o', str(tmp_path / 'play.png'), '--dpi', '50'],
+        [
+            sys.executable,
+            '-c',
+            source,
+            str(bag[0]),
+            '-o',
+            str(tmp_path / 'play.png'),
+            '--dpi',
+            '50',
+        ],
         cwd=ROOT,
         capture_output=True,
         text=True,

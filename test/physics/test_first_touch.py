@@ -42,7 +42,7 @@ def test_a_ball_that_the_air_brakes_in_its_fall_bounces_off_the_ground(velocity,
 
 @sheets
 def test_a_ball_put_down_over_a_sheet_and_its_sides_lies_on_something(sheet):
-    course = Course((Plane((0, 0, -2), material=HARD), sheet), tee=(5, 5))
+    course = Course((Plane((0, 0, -2), material=HARD), sheet), tee=(5.0, 5.0))
     world = World(course)
     for x, y in np.random.default_rng(1).uniform(-1.2, 1.2, (200, 2)):
         world.place('ball', (x, y))
@@ -51,7 +51,7 @@ def test_a_ball_put_down_over_a_sheet_and_its_sides_lies_on_something(sheet):
 
 @sheets
 def test_a_ball_that_nothing_bends_touches_the_sides_of_a_sheet_where_it_is_told_to(sheet):
-    course = Course((Plane((0, 0, -2), material=HARD), sheet), tee=(5, 5), effects=())
+    course = Course((Plane((0, 0, -2), material=HARD), sheet), tee=(5.0, 5.0), effects=())
     world = World(course)
     random = np.random.default_rng(2)
     bounces = 0

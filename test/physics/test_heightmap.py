@@ -17,7 +17,7 @@
 from math import pi, sqrt
 import os
 
-from driving_range import EVERYTHING, GRAVITY, HARD, random_shots
+from driving_range import EVERYTHING, GRAVITY, HARD, one_by_one, random_shots
 from golf_sim_ros.course import load_course
 from golf_sim_ros.course.schema import CourseError
 from golf_sim_ros.physics import (
@@ -30,7 +30,6 @@ from golf_sim_ros.physics import (
     Plane,
     Preset,
     Restitution,
-    simulate_many,
     World,
 )
 from golf_sim_ros.physics.geometry import heightmap, surface_protocol
@@ -98,7 +97,7 @@ def test_a_tilted_plane_of_heights_is_that_plane():
     plane = Plane(normal=(-0.03, 0.02, 1.0), material=HARD)
     plane = plane._replace(normal=tuple(np.array(plane.normal) / np.linalg.norm(plane.normal)))
     ends = [
-        simulate_many(Course((ground,)), velocities, spins, effects=GRAVITY, accuracy='reference')
+        one_by_one(Course((ground,)), velocities, spins, effects=GRAVITY, accuracy='reference')
         for ground in (plane, map_)
     ]
     for name in ('carry', 'carry_side', 'total', 'side'):
@@ -323,7 +322,7 @@ def test_a_ball_that_falls_past_a_wall_meets_no_back_of_the_ground_beyond_it(spe
     world = World(
         Course(
             (Plane((0, 0, -1), material=GREEN), Heightmap(heights, (-1, -1), 0.5, GREEN)),
-            tee=(9, 0),
+            tee=(9.0, 0.0),
         ),
         effects=GRAVITY,
     )

@@ -16,8 +16,16 @@
 
 from typing import NamedTuple
 
-from driving_range import EVERYTHING, first_touches, launched, level, random_shots, TURF
-from golf_sim_ros.physics import ACCURACY, METHODS, Preset, simulate_many, World
+from driving_range import (
+    EVERYTHING,
+    first_touches,
+    launched,
+    level,
+    one_by_one,
+    random_shots,
+    TURF,
+)
+from golf_sim_ros.physics import ACCURACY, METHODS, Preset, World
 from golf_sim_ros.physics.integrators import dormand_prince, runge_kutta
 from golf_sim_ros.physics.integrators.dormand_prince import DormandPrince
 from golf_sim_ros.physics.properties.air import density, viscosity
@@ -202,7 +210,7 @@ def test_a_ten_times_tighter_tolerance_lowers_the_true_error(hundred):
     velocities, spins, truth = hundred
     wrong = []
     for tolerance in 10.0 ** -np.arange(1, 10):
-        shots = simulate_many(
+        shots = one_by_one(
             level(TURF),
             velocities,
             spins,
@@ -215,7 +223,7 @@ def test_a_ten_times_tighter_tolerance_lowers_the_true_error(hundred):
 
 def test_reference_agrees_with_dop853_to_a_micrometre(hundred):
     velocities, spins, truth = hundred
-    shots = simulate_many(level(TURF), velocities, spins, effects=EVERYTHING, accuracy='reference')
+    shots = one_by_one(level(TURF), velocities, spins, effects=EVERYTHING, accuracy='reference')
     np.testing.assert_allclose(first_touches(shots, velocities), truth[:, :2], atol=1e-6)
     np.testing.assert_allclose(shots['flight_time'], truth[:, 3], atol=1e-6)
     for i in range(10):  # and on the way

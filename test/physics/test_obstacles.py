@@ -17,7 +17,7 @@
 from math import exp, hypot, sqrt
 import os
 
-from driving_range import GRAVITY, HARD
+from driving_range import GRAVITY, HARD, one_by_one
 from golf_sim_ros.physics import (
     Collision,
     Course,
@@ -26,7 +26,6 @@ from golf_sim_ros.physics import (
     Phase,
     Plane,
     Restitution,
-    simulate_many,
     Sphere,
     World,
 )
@@ -117,7 +116,7 @@ def test_shots_into_a_wood_end_outside_of_every_trunk():
     velocities = np.stack(
         (speeds * np.cos(turns), speeds * np.sin(turns), random.uniform(0, 15, SHOTS)), -1
     )
-    ended = simulate_many(course, velocities, random.normal(size=(SHOTS, 3)) * 100)
+    ended = one_by_one(course, velocities, random.normal(size=(SHOTS, 3)) * 100)
     assert set(ended['status']) == {'at_rest'}
     for position in ended['position']:
         assert min(outside(trunk, position) for trunk in trunks) > RADIUS - 1e-6
