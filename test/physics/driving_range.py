@@ -16,8 +16,8 @@
 
 A new combination of effects takes half a minute to compile, so nearly all tests use one of two:
 EVERYTHING, which does nothing more on hard ground than on soft, and GRAVITY. Worlds share one
-program whatever their effects, so hundreds of shots with others are played `one_by_one`, and a
-few in plain Python.
+program for all effects of these, and `simulate_many` has one for each combination: so hundreds of
+shots are played `one_by_one`, and a few with other effects in plain Python.
 """
 
 from math import cos, radians, sin
