@@ -25,6 +25,14 @@ ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / 'docs' / 'validation.md').read_text(encoding='utf-8')
 
 
+@pytest.fixture(scope='module', autouse=True)
+def in_plain_python():
+    """Play in plain Python: few shots, by laws that would be compiled for them alone."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv('GOLF_SIM_ROS_ENGINE', 'python')
+        yield
+
+
 @pytest.fixture(scope='module')
 def validate():
     """Import the module that makes the page."""
