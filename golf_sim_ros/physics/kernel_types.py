@@ -54,7 +54,7 @@ ShapeRecord = Any
 # an integrator, as `integrators.dormand_prince.DormandPrince`
 MethodRecord = Any
 # a `scene.kernel_model.GroundScene`, and a `scene.kernel_model.Model`
-Land = Any
+SceneRecord = Any
 ModelRecord = Any
 # a `collision.workspace.Workspace`, or a `MultiBallWorkspace`, which is one, too
 WorkRecord = Any

@@ -27,7 +27,7 @@ from .field import Cells, MOST_NUMBERS, WindField
 from .foliage import canopy_drag, tallest
 from .grid import Grid, layers, with_buffer
 from .land_survey import Box, land_box, land_digest, smoothed, Survey, survey
-from .steady_flow import Land, SteadyFlow
+from .steady_flow import SteadyFlow, Terrain
 from ..physics.effects.wind_field import WindAtlas
 from ..physics.scene.course_record import Course
 
@@ -52,7 +52,7 @@ class Case(NamedTuple):
 
     survey: Survey
     grid: Grid
-    land: Land
+    land: Terrain
     level: Level
     core: tuple
 
@@ -143,7 +143,7 @@ def case_of(course: Course, level: Level) -> Case:
     out = SPONGE_FROM * width
     (left, right), (front, back) = box
     free = (left - out, right + out), (front - out, back + out)
-    land = Land(roughness, canopy_drag(course, grid, looked_at), sponge_rates(grid, free, 1.0))
+    land = Terrain(roughness, canopy_drag(course, grid, looked_at), sponge_rates(grid, free, 1.0))
     core = [
         slice(int((centres < low).sum()), int((centres <= high).sum()))
         for centres, (low, high) in zip((grid.xc, grid.yc), box)

@@ -41,7 +41,7 @@ DIVERGENCE = 1e-11
 BLOWN_UP = 50.0  # times the wind: no such air is meant
 
 
-class Land(NamedTuple):
+class Terrain(NamedTuple):
     """Ground as the air feels it.
 
     ``roughness`` length (nx, ny) [m]; ``foliage`` Cd a (nx, ny, nz) [1/m]; ``sponge`` rates (nx,
@@ -53,14 +53,14 @@ class Land(NamedTuple):
     sponge: np.ndarray
 
     @classmethod
-    def bare(cls, grid: Grid, roughness: float) -> 'Land':
-        """Land of a uniform `roughness` without trees, and without a sponge."""
+    def bare(cls, grid: Grid, roughness: float) -> 'Terrain':
+        """Terrain of a uniform `roughness` without trees, and without a sponge."""
         nx, ny, _ = grid.shape
         return cls(np.full((nx, ny), float(roughness)), np.zeros(grid.shape), np.zeros((nx, ny)))
 
 
 class SteadyFlow:
-    """Flow of an `Inflow` over the `Land` on a `Grid`, at first that inflow everywhere.
+    """Flow of an `Inflow` over the `Terrain` on a `Grid`, at first that inflow everywhere.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class SteadyFlow:
         Change in each step; see `March`.
     """
 
-    def __init__(self, grid: Grid, land: Land, inflow: boundary.Inflow) -> None:
+    def __init__(self, grid: Grid, land: Terrain, inflow: boundary.Inflow) -> None:
         self.grid, self.land, self.inflow = grid, land, inflow
         self.pressure_solver = PressureSolver(grid)
         self.closure = closure_of(grid, land.roughness, land.foliage)

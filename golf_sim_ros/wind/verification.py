@@ -35,7 +35,7 @@ try:
     from .laminar_flow import drags, LaminarFlow, slides, sticks, Walls
     from .march import March
     from .pressure_solver import PressureSolver, Velocity
-    from .steady_flow import Land, SteadyFlow
+    from .steady_flow import SteadyFlow, Terrain
 except Unavailable as error:
     sys.exit(str(error))
 
@@ -129,7 +129,7 @@ def hill(steepness: float, cell: float = 20.0) -> tuple[np.ndarray, np.ndarray, 
 
     faces = with_buffer(-2.0 * length - 0.5 * cell, 2.0 * length + 0.5 * cell, cell, 1.25, 900.0)
     grid = Grid(faces, faces, layers(0.8, 1.2, 10.0 * length), heights)
-    flow = SteadyFlow(grid, Land.bare(grid, ROUGHNESS), Inflow(0.0, ROUGHNESS))
+    flow = SteadyFlow(grid, Terrain.bare(grid, ROUGHNESS), Inflow(0.0, ROUGHNESS))
     flow.run(March(change=3e-5))
     middle = len(grid.xc) // 2
     found = profile(flow, middle, middle, HEIGHTS) / flow.inflow.at(HEIGHTS) - 1.0
@@ -145,7 +145,7 @@ def flat(angle: float = 0.0, disturbed: float = 0.05) -> tuple[float, float, flo
     grid = Grid(np.linspace(0.0, 2000.0, 81), np.linspace(0.0, 400.0, 17), layers(0.6, 1.2, 300.0))
     found, divergences = [], []
     for share in (0.0, disturbed):
-        flow = SteadyFlow(grid, Land.bare(grid, ROUGHNESS), Inflow(angle, ROUGHNESS))
+        flow = SteadyFlow(grid, Terrain.bare(grid, ROUGHNESS), Inflow(angle, ROUGHNESS))
         waves = np.cos(grid.x / 90.0)[:, None, None] * np.cos(0.05 * grid.zc)
         flow.velocity.u[1:-1] *= 1.0 + share * waves[1:-1]
         flow.run(March(change=1e-5, steps=400))
@@ -172,7 +172,7 @@ def trees(
     )
     across = overlap(grid.x, -0.5 * width, 0.5 * width)
     foliage = drag / width * across[:, None, None] * overlap(grid.zeta, 0.0, height)
-    land = Land.bare(grid, ROUGHNESS)._replace(foliage=foliage)
+    land = Terrain.bare(grid, ROUGHNESS)._replace(foliage=foliage)
     flow = SteadyFlow(grid, land, Inflow(0.0, ROUGHNESS))
     flow.run(March(steps=500, change=3e-5))
     low = np.array([2.0])

@@ -34,7 +34,7 @@ from ..engine.engines import best
 from ..geometry import surfaces
 from ..integrators.euler import SemiImplicitEuler
 from ..jit import borrowed, entry, kernel
-from ..kernel_types import BallRecord, Land, MaterialRecord, ModelRecord, Vector
+from ..kernel_types import BallRecord, MaterialRecord, ModelRecord, SceneRecord, Vector
 from ..mechanics.vector import add_scaled, dot, length, load, scale, store, tangential, ZERO
 from ..properties.material import restitution
 from ..scene import kernel_model as model_
@@ -131,7 +131,7 @@ def move(model: ModelRecord, ball: BallRecord) -> None:
 
 
 @kernel
-def push_out(land: Land, ball: BallRecord, time: float, absorbs: np.ndarray) -> None:
+def push_out(land: SceneRecord, ball: BallRecord, time: float, absorbs: np.ndarray) -> None:
     """Push the ball out of what it is in, and let it bounce. Writes motion, phase, landing."""
     low, high = surfaces.around(load(ball['position']), land.ball.radius)
     part = surfaces.next_part(land.ground, 0, low, high)
@@ -153,15 +153,15 @@ def push_out(land: Land, ball: BallRecord, time: float, absorbs: np.ndarray) -> 
 def rebound(ball: BallRecord, material: MaterialRecord, absorbs: bool, normal: Vector) -> None:
     """Restitution, friction against the velocity, loss of spin. Writes velocity and spin."""
     v = load(ball['velocity'])
-    approach = -dot(v, normal)
+    approach_speed = -dot(v, normal)
     sideways = tangential(v, normal)
     if absorbs:
         store(ball['velocity'], ZERO)
         store(ball['spin'], ZERO)
         return
-    e = restitution(material, approach)
+    e = restitution(material, approach_speed)
     # Friction can only slow the ball: in the report it gives no torque.
-    lost = min(material['dynamic_friction'] * (1.0 + e) * approach, length(sideways))
+    lost = min(material['dynamic_friction'] * (1.0 + e) * approach_speed, length(sideways))
     left = 1.0 - lost / length(sideways) if length(sideways) > 0.0 else 0.0
-    store(ball['velocity'], add_scaled(scale(left, sideways), e * approach, normal))
+    store(ball['velocity'], add_scaled(scale(left, sideways), e * approach_speed, normal))
     store(ball['spin'], scale(SPIN_AFTER_BOUNCE, load(ball['spin'])))

@@ -12,4 +12,4 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Collision detection: broad phase, and time of impact with ground, water and balls."""
+"""Collision detection: broad phase; narrow phase, the time of impact with ground, water, balls."""

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Time of impact of two balls: their gap is convex in their relative position, as with ground."""
+"""Narrow phase of balls: time of impact of two. Their gap is convex in their relative place."""
 
 from math import sqrt
 

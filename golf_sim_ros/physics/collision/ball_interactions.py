@@ -21,7 +21,7 @@ bodies for `workspace.MultiBallWorkspace`; for `workspace.Workspace` the default
 import numpy as np
 
 from ..jit import generic
-from ..kernel_types import Land, WorkRecord
+from ..kernel_types import SceneRecord, WorkRecord
 from ..state.events import Log
 
 
@@ -55,7 +55,7 @@ def interrupt_segments(
 
 @generic
 def collect_ball_contacts(
-    work: WorkRecord, land: Land, balls: np.ndarray, i: int, now: float
+    work: WorkRecord, land: SceneRecord, balls: np.ndarray, i: int, now: float
 ) -> None:
     """Add the contacts of ball `i` with other balls, which become involved, at the present.
 
@@ -65,7 +65,7 @@ def collect_ball_contacts(
 
 @generic
 def resolve_ball_impact(
-    work: WorkRecord, land: Land, balls: np.ndarray, i: int, now: float, log: Log
+    work: WorkRecord, land: SceneRecord, balls: np.ndarray, i: int, now: float, log: Log
 ) -> None:
     """Resolve the impact of ball `i` with its target and all that touches, and log it.
 
@@ -74,7 +74,9 @@ def resolve_ball_impact(
 
 
 @generic
-def step_together(work: WorkRecord, land: Land, balls: np.ndarray, i: int, now: float) -> bool:
+def step_together(
+    work: WorkRecord, land: SceneRecord, balls: np.ndarray, i: int, now: float
+) -> bool:
     """Whether ball `i` is time-stepped with others; solves their step if one is due.
 
     Writes ball, work.

@@ -16,7 +16,7 @@
 
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, MaterialRecord, Vector
+from ..kernel_types import BallRecord, MaterialRecord, SceneRecord, Vector
 from ..mechanics.impulse import slip
 from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, unit, ZERO
 from ..state.ball import ROLL, SLIDE
@@ -31,7 +31,7 @@ from ..trajectory.equations_of_motion import (
 
 
 @kernel
-def contact_material_number(land: Land, ball: BallRecord, part: int, normal: Vector) -> int:
+def contact_material_number(land: SceneRecord, ball: BallRecord, part: int, normal: Vector) -> int:
     """Look up the number of the material of `part` where the ball touches it with `normal`.
 
     On a border it is that of the side towards which the ball moves.
@@ -42,20 +42,22 @@ def contact_material_number(land: Land, ball: BallRecord, part: int, normal: Vec
 
 
 @kernel
-def contact_material(land: Land, ball: BallRecord, part: int, normal: Vector) -> MaterialRecord:
+def contact_material(
+    land: SceneRecord, ball: BallRecord, part: int, normal: Vector
+) -> MaterialRecord:
     """Row of the material of `part` where the ball touches it with `normal`."""
     return land.materials[contact_material_number(land, ball, part, normal)]
 
 
 @kernel
-def remove_slip(land: Land, ball: BallRecord) -> None:
+def remove_slip(land: SceneRecord, ball: BallRecord) -> None:
     """Remove all slip at once by the tangential impulse of grip. Writes velocity and spin."""
     normal = load(ball['normal'])
     r = land.ball.radius
     k = land.ball.inertia
-    push = scale(-k / (1.0 + k), slip(load(ball['velocity']), load(ball['spin']), normal, r))
-    store(ball['velocity'], add(load(ball['velocity']), push))
-    store(ball['spin'], add_scaled(load(ball['spin']), -1.0 / (k * r), cross(normal, push)))
+    change = scale(-k / (1.0 + k), slip(load(ball['velocity']), load(ball['spin']), normal, r))
+    store(ball['velocity'], add(load(ball['velocity']), change))
+    store(ball['spin'], add_scaled(load(ball['spin']), -1.0 / (k * r), cross(normal, change)))
 
 
 @kernel
@@ -65,13 +67,13 @@ def in_micro_bounces(ball: BallRecord, now: float) -> bool:
 
 
 @kernel
-def pull_on(land: Land, ball: BallRecord) -> Vector:
+def pull_on(land: SceneRecord, ball: BallRecord) -> Vector:
     """Acceleration of a ball in contact by its weight and by moving air."""
     return pull_at(land, load(ball['position']), load(ball['velocity']), load(ball['spin']))
 
 
 @kernel
-def heading(land: Land, ball: BallRecord) -> Vector:
+def heading(land: SceneRecord, ball: BallRecord) -> Vector:
     """Compute the unit vector along the velocity.
 
     Of a ball without any it is along the one that friction and weight give it.
@@ -90,7 +92,7 @@ def heading(land: Land, ball: BallRecord) -> Vector:
 
 
 @kernel
-def update_material(land: Land, ball: BallRecord) -> None:
+def update_material(land: SceneRecord, ball: BallRecord) -> None:
     """Look up the material that the ball is on: on a border, what it heads for.
 
     Writes material.
@@ -101,7 +103,7 @@ def update_material(land: Land, ball: BallRecord) -> None:
 
 
 @kernel
-def set_support(land: Land, ball: BallRecord, part: int, normal: Vector) -> None:
+def set_support(land: SceneRecord, ball: BallRecord, part: int, normal: Vector) -> None:
     """Set the ball's support to `part`, or to none (NO_PART). Writes support, material, normal."""
     ball['support'] = part
     store(ball['normal'], normal)
@@ -109,7 +111,7 @@ def set_support(land: Land, ball: BallRecord, part: int, normal: Vector) -> None
 
 
 @kernel
-def touch_down(land: Land, ball: BallRecord, now: float) -> None:
+def touch_down(land: SceneRecord, ball: BallRecord, now: float) -> None:
     """Let the ball go on along its support, where it slides at first.
 
     Writes phase, step, material, velocity and spin.
@@ -121,7 +123,7 @@ def touch_down(land: Land, ball: BallRecord, now: float) -> None:
 
 
 @shared
-def choose_contact_mode(land: Land, ball: BallRecord, now: float) -> None:
+def choose_contact_mode(land: SceneRecord, ball: BallRecord, now: float) -> None:
     """Choose whether a ball in contact slides, rolls, pivots or rests.
 
     Writes phase, velocity and spin.

@@ -29,7 +29,7 @@ from ..geometry import surfaces
 from ..integrators import step
 from ..integrators.runge_kutta import store_stage
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, ModelRecord, Vector
+from ..kernel_types import BallRecord, ModelRecord, SceneRecord, Vector
 from ..mechanics.impulse import slip
 from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale, store, sub, ZERO
 from ..state.ball import moves, ROLL, SLIDE
@@ -155,14 +155,14 @@ def press_with_air(
 
 
 @kernel
-def off_ground(land: Land, ball: BallRecord, share: float) -> float:
+def off_ground(land: SceneRecord, ball: BallRecord, share: float) -> float:
     """Distance [m] that the ball is off the ground at that `share` of its segment."""
     distance, _ = supporting_surface(land, ball, position(ball, share * ball['span']))
     return abs(distance - land.ball.radius)
 
 
 @shared
-def step_share_on_ground(land: Land, ball: BallRecord) -> float:
+def step_share_on_ground(land: SceneRecord, ball: BallRecord) -> float:
     """Share of the step over which its curve stays on the ground, to the limit on a path's error.
 
     It is 1 or more if the step stands, without end if nothing is known of a longer one. The curve
@@ -184,7 +184,7 @@ def step_share_on_ground(land: Land, ball: BallRecord) -> float:
 
 @shared
 def snap_small_motion(
-    land: Land, ball: BallRecord, force: Vector, press: float, grips: bool, now: float
+    land: SceneRecord, ball: BallRecord, force: Vector, press: float, grips: bool, now: float
 ) -> None:
     """Remove slip, or the way to a stop, that is too small to count. Writes motion and phase.
 
@@ -217,13 +217,13 @@ def snap_small_motion(
 
 
 @kernel
-def slip_limit(land: Land, press: float) -> float:
+def slip_limit(land: SceneRecord, press: float) -> float:
     """Slip [m/s] that is too small to count, of a ball with that `press`."""
     return max(SLIP_COUNTS * land.limits.path, LEAST_SLIP, SLIP_TIME * press)
 
 
 @kernel
-def time_to_unwind(land: Land, ball: BallRecord, press: float, turn: Vector) -> float:
+def time_to_unwind(land: SceneRecord, ball: BallRecord, press: float, turn: Vector) -> float:
     """Time [s] until pivot friction stops the spin about the normal; infinite where it does not.
 
     A normal that turns changes that spin, too: it may drive it harder than friction brakes.
@@ -242,7 +242,7 @@ def time_to_unwind(land: Land, ball: BallRecord, press: float, turn: Vector) -> 
 
 @kernel
 def longest_contact_step(
-    land: Land, ball: BallRecord, press: float, turn: Vector, change: float
+    land: SceneRecord, ball: BallRecord, press: float, turn: Vector, change: float
 ) -> float:
     """Longest step [s] that does not overlook what happens to the ball.
 
@@ -260,7 +260,7 @@ def longest_contact_step(
 
 @shared
 def time_to_change(
-    land: Land, ball: BallRecord, force: Vector, press: float, braking: float
+    land: SceneRecord, ball: BallRecord, force: Vector, press: float, braking: float
 ) -> float:
     """Estimate of the time [s] until slip ends, or until a braked ball stops.
 
@@ -283,7 +283,7 @@ def time_to_change(
 
 @shared
 def step_share_to_change(
-    land: Land,
+    land: SceneRecord,
     ball: BallRecord,
     start: tuple[Vector, Vector],
     presses: tuple[float, float],
@@ -317,7 +317,7 @@ def step_share_to_change(
 
 
 @kernel
-def gained(land: Land, ball: BallRecord) -> float:
+def gained(land: SceneRecord, ball: BallRecord) -> float:
     """Energy over mass [J/kg] that the ball gains on its segment beside weight's and air's work.
 
     Ground only dissipates: there is a gain where its curvature is discontinuous, as from edge to
@@ -335,17 +335,17 @@ def gained(land: Land, ball: BallRecord) -> float:
         weight, way
     )
     if in_micro_bounces(ball, ball['begin']):
-        push = length(load(ball['micro_bounce_air']))
+        air_force = length(load(ball['micro_bounce_air']))
     else:
-        push = max(
+        air_force = max(
             length(moving_air(land.air, land.ground, place, v0, w0)),
             length(moving_air(land.air, land.ground, add(place, way), v1, w1)),
         )
-    return gain - push * ball['span'] * max(length(v0), length(v1))
+    return gain - air_force * ball['span'] * max(length(v0), length(v1))
 
 
 @shared
-def project_to_ground(land: Land, ball: BallRecord) -> tuple[float, Vector]:
+def project_to_ground(land: SceneRecord, ball: BallRecord) -> tuple[float, Vector]:
     """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
     And the normal there. The position is not projected after the shortest of steps: its rounding
@@ -386,6 +386,6 @@ def end_velocity(ball: BallRecord) -> Vector:
 
 
 @kernel
-def slip_at_end(land: Land, ball: BallRecord, normal: Vector) -> Vector:
+def slip_at_end(land: SceneRecord, ball: BallRecord, normal: Vector) -> Vector:
     """Slip of the ball at the end of its segment, where the ground has that `normal`."""
     return slip(end_velocity(ball), load(ball['spin_coefficients'][3]), normal, land.ball.radius)

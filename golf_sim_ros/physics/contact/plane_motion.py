@@ -29,7 +29,7 @@ from .contact_state import in_micro_bounces
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, Vector
+from ..kernel_types import BallRecord, SceneRecord, Vector
 from ..mechanics import coulomb_deceleration
 from ..mechanics.impulse import slip
 from ..mechanics.vector import (
@@ -74,7 +74,7 @@ Coast = tuple[Vector, Vector, float]
 
 
 @kernel
-def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
+def resists_evenly(land: SceneRecord, ball: BallRecord, now: float) -> bool:
     """Whether the ball's resistance changes so little that it may be taken as constant.
 
     That of a ball that slides up to the end of its slip, that of one that rolls up to its stop:
@@ -123,7 +123,7 @@ def resists_evenly(land: Land, ball: BallRecord, now: float) -> bool:
 
 
 @kernel
-def even_growth(land: Land, ball: BallRecord, press: float, v: Vector) -> float:
+def even_growth(land: SceneRecord, ball: BallRecord, press: float, v: Vector) -> float:
     """Deceleration [m/s^2] that stands for what grows with speed until slip, or motion, ends.
 
     Of a ball that slides its value half-way, of one that rolls its mean over the way.
@@ -139,7 +139,7 @@ def even_growth(land: Land, ball: BallRecord, press: float, v: Vector) -> float:
 
 
 @shared
-def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
+def plane_segment(land: SceneRecord, ball: BallRecord, now: float) -> None:
     """Plan a segment of sliding or rolling on a plane.
 
     It goes up to a stop, or as far as a Bezier curve is exact. Writes curve, ending.
@@ -195,7 +195,7 @@ def plane_segment(land: Land, ball: BallRecord, now: float) -> None:
 
 
 @kernel
-def allowed_error(land: Land, ball: BallRecord) -> float:
+def allowed_error(land: SceneRecord, ball: BallRecord) -> float:
     """Distance [m] by which the segment's curve may be off its closed form."""
     x = ball['position']
     rounding = RELATIVE_ROUNDING * (abs(x[0]) + abs(x[1]) + abs(x[2]))
@@ -239,7 +239,7 @@ def glide_error(
 
 @kernel
 def fit_glide(
-    land: Land,
+    land: SceneRecord,
     ball: BallRecord,
     motion: coulomb_deceleration.Braked,
     coast: Coast,

@@ -27,7 +27,7 @@ from .plane_motion import allowed_error, LONGEST_SEGMENT
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, Vector
+from ..kernel_types import BallRecord, SceneRecord, Vector
 from ..mechanics.vector import add_scaled, cross, dot, length, load, scale, store, sub, unit, ZERO
 from ..state.ball import BALL_STOPS, ROLL, STEP_END
 from ..trajectory.equations_of_motion import (
@@ -47,7 +47,7 @@ Braking = tuple[float, float]
 
 
 @kernel
-def rolls_straight(land: Land, ball: BallRecord, now: float) -> bool:
+def rolls_straight(land: SceneRecord, ball: BallRecord, now: float) -> bool:
     """Whether the ball rolls on level ground, braked, gripping and without micro-bounces."""
     if ball['phase'] != ROLL or in_micro_bounces(ball, now):
         return False
@@ -62,7 +62,9 @@ def rolls_straight(land: Land, ball: BallRecord, now: float) -> bool:
 
 
 @kernel
-def level_braking(land: Land, ball: BallRecord, press: float) -> tuple[Braking, float, float]:
+def level_braking(
+    land: SceneRecord, ball: BallRecord, press: float
+) -> tuple[Braking, float, float]:
     """Braking of the ball on level ground, grip that slowing its spin leaves, and a speed.
 
     The grip is in m/s^2. The braking holds from the ball's speed down to that speed [m/s]. Where
@@ -82,7 +84,7 @@ def level_braking(land: Land, ball: BallRecord, press: float) -> tuple[Braking, 
 
 
 @shared
-def rolling_segment(land: Land, ball: BallRecord) -> None:
+def rolling_segment(land: SceneRecord, ball: BallRecord) -> None:
     """Plan a segment up to the stop, or as far as a Bezier curve is exact.
 
     Writes curve, ending.
@@ -127,7 +129,7 @@ def rolled_on(ball: BallRecord, braking: Braking, time: float) -> tuple[Vector, 
 
 @kernel
 def fit_straight(
-    land: Land, ball: BallRecord, braking: Braking, time: float, pivot: tuple[float, float]
+    land: SceneRecord, ball: BallRecord, braking: Braking, time: float, pivot: tuple[float, float]
 ) -> None:
     """Fit the segment to the motion up to `time`. Writes curve.
 

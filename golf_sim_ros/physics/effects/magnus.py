@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Magnus lift of a golf ball: lift coefficient smooth in spin ratio and Reynolds number."""
+"""Magnus force, lift by spin: a coefficient smooth in spin ratio and Reynolds number."""
 
 from math import sqrt
 from typing import NamedTuple

@@ -73,9 +73,13 @@ def _contact_normal(effect: Turf, normal: Vector, velocity: Vector, softness: fl
     along = dot(across, across)
     if softness * effect.rate == 0.0 or along == 0.0:
         return normal
-    approach = max(-dot(velocity, normal), 0.0)
-    dug_in = approach * approach / (approach * approach + effect.fade * effect.fade)
-    speed = sqrt(along + approach * approach)
+    approach_speed = max(-dot(velocity, normal), 0.0)
+    dug_in = (
+        approach_speed
+        * approach_speed
+        / (approach_speed * approach_speed + effect.fade * effect.fade)
+    )
+    speed = sqrt(along + approach_speed * approach_speed)
     skimming = along * along / (speed * speed * speed)
     tilt = dug_in * saturated(softness * effect.rate * skimming, effect.most)
     return tilted(normal, across, tilt)
@@ -104,8 +108,8 @@ def _departure(effect: Turf, hit: protocol.Hit, velocity: Vector) -> Vector:
     if onward < 0.0 and bank > 0.0:
         friction = max(dot(hit.velocity, ahead) - onward - bank, 0.0)
         velocity = add_scaled(velocity, -onward * bank / (bank + friction), ahead)
-    approach = -dot(hit.velocity, hit.normal)
-    most = max(approach, 0.0) * (1.0 + 2.0 * hit.restitution) / 3.0
+    approach_speed = -dot(hit.velocity, hit.normal)
+    most = max(approach_speed, 0.0) * (1.0 + 2.0 * hit.restitution) / 3.0
     return add_scaled(velocity, min(most - dot(velocity, hit.normal), 0.0), hit.normal)
 
 

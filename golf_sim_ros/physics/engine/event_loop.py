@@ -39,7 +39,7 @@ from ..effects import at_time, protocol, set_drift
 from ..geometry import surfaces
 from ..geometry.surfaces import Ground
 from ..jit import borrowed, cycles, entry, kernel, literal_unroll, shared
-from ..kernel_types import BallRecord, Effects, Land, ModelRecord, Vector, WorkRecord
+from ..kernel_types import BallRecord, Effects, ModelRecord, SceneRecord, Vector, WorkRecord
 from ..mechanics.vector import load, store, unit, ZERO
 from ..response import ball_impact, time_stepping  # noqa: F401  (they register laws)
 from ..response.collision_log import log_out_of_bounds
@@ -180,7 +180,7 @@ def resolve(model: ModelRecord, balls: np.ndarray, i: int, work: WorkRecord, log
 
 
 @kernel
-def normal_at_end(land: Land, ball: BallRecord) -> Vector:
+def normal_at_end(land: SceneRecord, ball: BallRecord) -> Vector:
     """Compute the normal under a ball in contact at the end of its segment."""
     ground = land.ground
     if surfaces.goes_on(ground, ball['support'], ball['support']):

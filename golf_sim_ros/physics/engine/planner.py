@@ -43,7 +43,7 @@ from ..geometry import surfaces
 from ..geometry.water_surface import water_at
 from ..integrators import step
 from ..jit import borrowed, entry, kernel, shared
-from ..kernel_types import BallRecord, Land, ModelRecord, Vector
+from ..kernel_types import BallRecord, ModelRecord, SceneRecord, Vector
 from ..mechanics.vector import (
     add_scaled,
     cross,
@@ -275,7 +275,7 @@ def smooth_surface_segment(model: ModelRecord, ball: BallRecord, now: float) -> 
 
 
 @kernel
-def is_in_still_air(land: Land, ball: BallRecord, now: float) -> bool:
+def is_in_still_air(land: SceneRecord, ball: BallRecord, now: float) -> bool:
     """Whether no moving air pushes a ball in contact, beside what micro-bounces have of it."""
     state = load(ball['position']), load(ball['velocity']), load(ball['spin'])
     return in_micro_bounces(ball, now) or moving_air(land.air, land.ground, *state) == ZERO
@@ -305,7 +305,7 @@ def apply_air_to_micro_bounces(model: ModelRecord, ball: BallRecord, now: float)
 
 
 @kernel
-def flat_ground_goes_on(land: Land, ball: BallRecord) -> bool:
+def flat_ground_goes_on(land: SceneRecord, ball: BallRecord) -> bool:
     """Whether flat ground continues under the ball where it is heading."""
     ahead = add_scaled(load(ball['position']), surfaces.LOOK_AHEAD, heading(land, ball))
     return surfaces.flat_under(land.ground, ball['support'], ahead) and surfaces.touchable(

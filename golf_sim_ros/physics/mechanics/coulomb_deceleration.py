@@ -14,7 +14,7 @@
 
 """Coulomb deceleration of a particle on a slope, in closed form: u' = G ex - a u/|u|.
 
-Slip on a plane under friction and rolling under rolling resistance are both this. In parabolic
+Sliding on a plane under friction and rolling under rolling resistance are both this. In parabolic
 coordinates, u = (P^2 - Q^2) ex + 2 P Q ey with speed s = P^2 + Q^2, and with dt = s dq instead of
 time, the motion is linear: P' = -(a - G)/2 P, Q' = -(a + G)/2 Q. So speed, direction, time and
 displacement are sums of exponentials of q; q grows without bound as the particle stops, and the

@@ -79,19 +79,19 @@ def impulse(
 
 @kernel
 def after_impulse(
-    velocity: Vector, spin: Vector, push: Vector, normal: Vector, record: BallProperties
+    velocity: Vector, spin: Vector, given: Vector, normal: Vector, record: BallProperties
 ) -> tuple[Vector, Vector]:
-    """Velocity and spin after the impulse `push` [N s] at the contact point of `normal`."""
-    turn = scale(-record.radius, cross(normal, push))
+    """Velocity and spin after the impulse `given` [N s] at the contact point of `normal`."""
+    turn = scale(-record.radius, cross(normal, given))
     inertia = record.inertia * record.mass * record.radius * record.radius
-    return (add_scaled(velocity, 1.0 / record.mass, push), add_scaled(spin, 1.0 / inertia, turn))
+    return (add_scaled(velocity, 1.0 / record.mass, given), add_scaled(spin, 1.0 / inertia, turn))
 
 
 @kernel
-def apply_impulse(ball: BallRecord, push: Vector, normal: Vector, record: BallProperties) -> None:
-    """Apply the impulse `push` [N s] at the contact point of `normal`. Writes velocity, spin."""
+def apply_impulse(ball: BallRecord, given: Vector, normal: Vector, record: BallProperties) -> None:
+    """Apply the impulse `given` [N s] at the contact point of `normal`. Writes velocity, spin."""
     velocity, spin = after_impulse(
-        load(ball['velocity']), load(ball['spin']), push, normal, record
+        load(ball['velocity']), load(ball['spin']), given, normal, record
     )
     store(ball['velocity'], velocity)
     store(ball['spin'], spin)

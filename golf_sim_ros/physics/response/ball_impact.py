@@ -26,7 +26,7 @@ from ..collision.workspace import CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import contact_material_number, touch_down
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import Land, Vector, WorkRecord
+from ..kernel_types import SceneRecord, Vector, WorkRecord
 from ..mechanics.vector import dot, length, load, store
 from ..state.ball import FLIGHT, moves
 from ..state.events import BALL_HIT, BOUNCE, Log
@@ -42,14 +42,14 @@ LEAST_LOGGED_APPROACH = 0.1
 
 @ball_interactions.resolve_ball_impact.register(MultiBallWorkspace)
 def _resolve_ball_impact(
-    work: MultiBallWorkspace, land: Land, balls: np.ndarray, i: int, now: float, log: Log
+    work: MultiBallWorkspace, land: SceneRecord, balls: np.ndarray, i: int, now: float, log: Log
 ) -> None:
     collide_balls(land, balls, i, now, work, log)
 
 
 @shared
 def collide_balls(
-    land: Land, balls: np.ndarray, i: int, now: float, work: WorkRecord, log: Log
+    land: SceneRecord, balls: np.ndarray, i: int, now: float, work: WorkRecord, log: Log
 ) -> None:
     """Resolve the impact of ball `i` with its target, and with all that touches; it is logged.
 
@@ -85,7 +85,7 @@ def collide_balls(
 
 @shared
 def resolve_contact_set(
-    land: Land, balls: np.ndarray, now: float, work: WorkRecord, first: int, log: Log
+    land: SceneRecord, balls: np.ndarray, now: float, work: WorkRecord, first: int, log: Log
 ) -> None:
     """Resolve the impact of the involved balls at all their contacts.
 
@@ -151,7 +151,9 @@ def motion_before(work: WorkRecord, i: int) -> tuple[Vector, Vector]:
 
 
 @kernel
-def resume_motion(land: Land, balls: np.ndarray, now: float, work: WorkRecord, first: int) -> None:
+def resume_motion(
+    land: SceneRecord, balls: np.ndarray, now: float, work: WorkRecord, first: int
+) -> None:
     """Choose phase and contact of the involved balls, from `first` on, after an impact.
 
     Writes phase, step, material, velocity, spin, micro_bounce_end, sleeps_on_ball.

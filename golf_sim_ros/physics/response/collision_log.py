@@ -28,13 +28,13 @@ def log_impact(
     instant: tuple[float, int],
     hit: tuple[int, int, int, Vector],
     before: tuple[Vector, Vector],
-    push: Vector,
+    impulse: Vector,
     log: Log,
 ) -> None:
     """Log an impact that has just been applied to `ball`.
 
     `instant` is the time and the ball's number; `hit` the event's kind, material and sort and the
-    normal of what is hit; `before` the velocity and spin before the impact; `push` the impulse
+    normal of what is hit; `before` the velocity and spin before the impact; `impulse` the impulse
     [N s].
     """
     event = next_event(log)
@@ -49,7 +49,7 @@ def log_impact(
     store(event['velocity_after'], load(ball['velocity']))
     store(event['spin_before'], before[1])
     store(event['spin_after'], load(ball['spin']))
-    store(event['impulse'], push)
+    store(event['impulse'], impulse)
 
 
 @kernel

@@ -26,7 +26,14 @@ from ..collision.workspace import CONTACTS, INVOLVED, MultiBallWorkspace
 from ..contact.contact_state import contact_material
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, ContactRecord, Land, MaterialRecord, Vector, WorkRecord
+from ..kernel_types import (
+    BallRecord,
+    ContactRecord,
+    MaterialRecord,
+    SceneRecord,
+    Vector,
+    WorkRecord,
+)
 from ..mechanics.vector import dot, length, load, store, sub, unit, UP, ZERO
 from ..properties.material import restitution
 from ..state.ball import FLIGHT, HOLED, moves, STEP_END
@@ -59,7 +66,7 @@ def synchronize(ball: BallRecord, now: float) -> None:
 
 @shared
 def collect_contacts(
-    land: Land, balls: np.ndarray, work: WorkRecord, now: float, known: int
+    land: SceneRecord, balls: np.ndarray, work: WorkRecord, now: float, known: int
 ) -> None:
     """Collect the contacts of the involved balls and of all that they touch.
 
@@ -123,7 +130,7 @@ def add_contact(work: WorkRecord, a: int, b: int, part: int, normal: Vector) -> 
 
 @ball_interactions.collect_ball_contacts.register(MultiBallWorkspace)
 def _collect_ball_contacts(
-    work: MultiBallWorkspace, land: Land, balls: np.ndarray, i: int, now: float
+    work: MultiBallWorkspace, land: SceneRecord, balls: np.ndarray, i: int, now: float
 ) -> None:
     k = work.involved_index[i]
     radius = land.ball.radius
@@ -149,7 +156,7 @@ def _collect_ball_contacts(
 
 @kernel
 def add_ball_contact(
-    land: Land, balls: np.ndarray, i: int, j: int, work: WorkRecord, now: float
+    land: SceneRecord, balls: np.ndarray, i: int, j: int, work: WorkRecord, now: float
 ) -> None:
     """Add the contact of balls `i` and `j`. Writes contacts."""
     n = add_contact(
@@ -165,7 +172,7 @@ def add_ball_contact(
 
 @kernel
 def collect_ground_contacts(
-    land: Land, ball: BallRecord, i: int, work: WorkRecord, begin: int
+    land: SceneRecord, ball: BallRecord, i: int, work: WorkRecord, begin: int
 ) -> None:
     """Add the contacts of ball `i` with the ground, its support first. Writes contacts.
 
@@ -208,7 +215,7 @@ def is_new_normal(work: WorkRecord, begin: int, normal: Vector) -> bool:
 
 @kernel
 def add_ground_contact(
-    land: Land,
+    land: SceneRecord,
     ball: BallRecord,
     i: int,
     touched: tuple[int, Vector],

@@ -32,7 +32,14 @@ from ..contact.contact_state import contact_material, set_support
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallProperties, BallRecord, ContactRecord, Land, Vector, WorkRecord
+from ..kernel_types import (
+    BallProperties,
+    BallRecord,
+    ContactRecord,
+    SceneRecord,
+    Vector,
+    WorkRecord,
+)
 from ..mechanics.vector import (
     add,
     add_scaled,
@@ -70,7 +77,7 @@ def contact_reach(work: WorkRecord) -> float:
 
 @kernel
 def add_ground_contacts(
-    land: Land, ball: BallRecord, i: int, work: WorkRecord, reach: float
+    land: SceneRecord, ball: BallRecord, i: int, work: WorkRecord, reach: float
 ) -> None:
     """Add the contacts of ball `i` with the ground within `reach`. Writes contacts."""
     begin = work.counts[CONTACTS]
@@ -116,7 +123,7 @@ def neighbours_within(
     low, high = surfaces.around(here, radius + reach)
     neighbours = work.solver.neighbours
     found = 0
-    watch = False
+    close_by = False
     at = next_node(work.tree, 0, low, high)
     while at >= 0:
         j = work.tree.nodes[at]['ball']
@@ -124,7 +131,7 @@ def neighbours_within(
         if j == i or balls[j]['phase'] == HOLED:
             continue
         if work.involved_index[j] < 0 and moves(balls[j]['phase']):
-            watch = True
+            close_by = True
         if (
             found < MOST_NEIGHBOURS
             and length(sub(here, position_at(balls[j], now))) - 2.0 * radius <= reach
@@ -135,12 +142,12 @@ def neighbours_within(
                 k -= 1
             neighbours[k] = j
             found += 1
-    return found, watch
+    return found, close_by
 
 
 @kernel
 def add_resting_contact(
-    land: Land, balls: np.ndarray, work: WorkRecord, i: int, j: int, now: float
+    land: SceneRecord, balls: np.ndarray, work: WorkRecord, i: int, j: int, now: float
 ) -> None:
     """Add the contact of ball `i` with ball `j`, which is involved or asleep. Writes contacts.
 
@@ -208,7 +215,7 @@ def contact_partner(row: ContactRecord) -> int:
 
 
 @shared
-def warm_start(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
+def warm_start(land: SceneRecord, balls: np.ndarray, work: WorkRecord) -> None:
     """Start from the impulses of the step before.
 
     Writes normal_impulse, tangent_impulse, solved_motion.
@@ -219,10 +226,10 @@ def warm_start(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
         for k in range(ball['stored_count']):
             if ball['stored_partners'][k] == contact_partner(row):
                 row['normal_impulse'] = ball['stored_impulses'][k, 0]
-                rub = load(ball['stored_impulses'][k, 1:4])
+                tangent_impulse = load(ball['stored_impulses'][k, 1:4])
                 # The normal has turned since: what is left of the old impulse along the new
                 # tangent plane.
-                store(row['tangent_impulse'], tangential(rub, load(row['normal'])))
+                store(row['tangent_impulse'], tangential(tangent_impulse, load(row['normal'])))
                 apply_normal_impulse(work, row, scale(row['normal_impulse'], load(row['normal'])))
                 apply_tangent_impulse(work, row, load(row['tangent_impulse']), land.ball)
                 break
@@ -259,19 +266,21 @@ def apply_normal_impulse(work: WorkRecord, row: ContactRecord, change: Vector) -
 
 @kernel
 def apply_tangent_impulse(
-    work: WorkRecord, row: ContactRecord, rub: Vector, record: BallProperties
+    work: WorkRecord, row: ContactRecord, tangent_impulse: Vector, record: BallProperties
 ) -> None:
-    """Apply the tangential impulse over mass `rub` to both bodies of a contact.
+    """Apply the tangential impulse over mass `tangent_impulse` to both bodies of a contact.
 
     Writes solved_motion.
     """
-    apply_normal_impulse(work, row, rub)
-    twist = scale(-1.0 / (record.inertia * record.radius), cross(load(row['normal']), rub))
+    apply_normal_impulse(work, row, tangent_impulse)
+    spin_change = scale(
+        -1.0 / (record.inertia * record.radius), cross(load(row['normal']), tangent_impulse)
+    )
     a = work.solver.solved_motion[row['a'], 3:6]
-    store(a, add(load(a), twist))
+    store(a, add(load(a), spin_change))
     if row['b'] >= 0:
         b = work.solver.solved_motion[row['b'], 3:6]
-        store(b, add(load(b), twist))
+        store(b, add(load(b), spin_change))
 
 
 @kernel
@@ -286,7 +295,7 @@ def relative_motion(work: WorkRecord, row: ContactRecord) -> tuple[Vector, Vecto
 
 
 @shared
-def sweep_impulses(land: Land, work: WorkRecord, backward: bool) -> float:
+def sweep_impulses(land: SceneRecord, work: WorkRecord, backward: bool) -> float:
     """One Gauss-Seidel sweep over all contacts; the greatest change of a normal impulse [m/s].
 
     Writes solved_motion, normal_impulse, tangent_impulse.
@@ -316,19 +325,19 @@ def sweep_impulses(land: Land, work: WorkRecord, backward: bool) -> float:
             sliding = sub(
                 add_scaled(velocity, -rate, normal), scale(land.ball.radius, cross(spin, normal))
             )
-            rub = add_scaled(before, -share * grip, sliding)
-            size = length(rub)
+            tangent_impulse = add_scaled(before, -share * grip, sliding)
+            size = length(tangent_impulse)
             # Projection onto Coulomb's cone: a disc, not a pyramid, so that friction has no
             # preferred axes.
             if size > row['friction'] * needed:
-                rub = scale(row['friction'] * needed / size, rub)
-            apply_tangent_impulse(work, row, sub(rub, before), land.ball)
-            store(row['tangent_impulse'], rub)
+                tangent_impulse = scale(row['friction'] * needed / size, tangent_impulse)
+            apply_tangent_impulse(work, row, sub(tangent_impulse, before), land.ball)
+            store(row['tangent_impulse'], tangent_impulse)
     return most
 
 
 @shared
-def solve_contacts(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
+def solve_contacts(land: SceneRecord, balls: np.ndarray, work: WorkRecord) -> None:
     """Solve all contacts by Gauss-Seidel sweeps.
 
     Writes normal_impulse, tangent_impulse, warm_start, solved_motion.
@@ -355,7 +364,7 @@ def write_back(ball: BallRecord, work: WorkRecord, i: int) -> None:
 
 
 @kernel
-def is_pressed_by_gravity(land: Land, ball: BallRecord, normal: Vector) -> bool:
+def is_pressed_by_gravity(land: SceneRecord, ball: BallRecord, normal: Vector) -> bool:
     """Whether gravity presses the ball onto a surface of `normal`.
 
     Then it is a support, not a wall or a ceiling.
@@ -365,7 +374,7 @@ def is_pressed_by_gravity(land: Land, ball: BallRecord, normal: Vector) -> bool:
 
 
 @kernel
-def count_support(land: Land, balls: np.ndarray, row: ContactRecord) -> None:
+def count_support(land: SceneRecord, balls: np.ndarray, row: ContactRecord) -> None:
     """Count a contact that presses or nearly touches as support of its balls.
 
     The most level surface is what the ball is on. Writes held_by, rolling_loss, contact.

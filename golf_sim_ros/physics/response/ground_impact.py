@@ -34,7 +34,7 @@ from ..effects import effective_normal, gravity_at, velocity_after
 from ..effects.protocol import Hit
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, MaterialRecord, Vector, WorkRecord
+from ..kernel_types import BallRecord, MaterialRecord, SceneRecord, Vector, WorkRecord
 from ..mechanics.impulse import after_impulse, ContactProperties, impulse
 from ..mechanics.vector import add_scaled, dot, length, load, scale, store, sub, tangential, ZERO
 from ..properties.material import restitution
@@ -62,7 +62,7 @@ LEAST_MICRO_BOUNCE = 1e-6  # m/s: a bounce 0.05 picometres high
 
 @shared
 def resolve_ground_impact(
-    land: Land, balls: np.ndarray, i: int, now: float, work: WorkRecord, log: Log
+    land: SceneRecord, balls: np.ndarray, i: int, now: float, work: WorkRecord, log: Log
 ) -> None:
     """Resolve the impact of ball `i` with its target. Writes ball, work; logs the impact.
 
@@ -89,8 +89,8 @@ def resolve_ground_impact(
         part, same = surfaces.touched(land.ground, place, land.ball.radius, ZERO)
         if part >= 0 and dot(same, normal) > 1.0 - 1e-9:
             ball['target'] = part
-    approach = -dot(load(ball['velocity']), normal)
-    if approach > LEAST_LOGGED_APPROACH:
+    approach_speed = -dot(load(ball['velocity']), normal)
+    if approach_speed > LEAST_LOGGED_APPROACH:
         record_landing(ball, now)
         ball['bounces'] += 1
     before = load(ball['velocity']), load(ball['spin'])
@@ -105,17 +105,17 @@ def resolve_ground_impact(
     else:
         apply_bounce(land, ball, normal, material)
     rebound = max(dot(load(ball['velocity']), normal), 0.0)
-    if approach > LEAST_LOGGED_APPROACH:
+    if approach_speed > LEAST_LOGGED_APPROACH:
         hit = BOUNCE, number, surfaces.sort(land.ground, ball['target']), normal
-        push = scale(land.ball.mass, sub(load(ball['velocity']), before[0]))
-        log_impact(ball, (now, i), hit, before, push, log)
+        impulse_on_ball = scale(land.ball.mass, sub(load(ball['velocity']), before[0]))
+        log_impact(ball, (now, i), hit, before, impulse_on_ball, log)
     # One longer segment among many short ones does not reset the count: between two lips they come
     # in waves.
     if now - ball['begin'] < RAPID:
         ball['rapid_impacts'] += 1
     else:
         ball['rapid_impacts'] = max(ball['rapid_impacts'] - 1, 0)
-    choose_after_impact(land, ball, now, (supported, approach, rebound), normal, material)
+    choose_after_impact(land, ball, now, (supported, approach_speed, rebound), normal, material)
     if ball['time_stepping']:
         return_to_events(ball)
     elif is_wedged(ball):
@@ -123,7 +123,9 @@ def resolve_ground_impact(
 
 
 @kernel
-def apply_bounce(land: Land, ball: BallRecord, normal: Vector, material: MaterialRecord) -> None:
+def apply_bounce(
+    land: SceneRecord, ball: BallRecord, normal: Vector, material: MaterialRecord
+) -> None:
     """Apply the impulse of an impact with a surface of `normal`. Writes velocity and spin."""
     motion = load(ball['velocity']), load(ball['spin'])
     velocity, spin = bounced(land, motion, normal, material)
@@ -133,7 +135,7 @@ def apply_bounce(land: Land, ball: BallRecord, normal: Vector, material: Materia
 
 @kernel
 def bounced(
-    land: Land, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
+    land: SceneRecord, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
 ) -> tuple[Vector, Vector]:
     """Velocity and spin after an impact of a ball of that `motion`, the two before."""
     if material['ploughing'] > 0.0:
@@ -147,13 +149,13 @@ def bounced(
         land.ball.mass,
         land.ball.inertia,
     )
-    push = impulse(bond, before, spin, felt, land.ball.radius)
-    velocity, spin = after_impulse(before, spin, push, felt, land.ball)
+    given = impulse(bond, before, spin, felt, land.ball.radius)
+    velocity, spin = after_impulse(before, spin, given, felt, land.ball)
     hit = Hit(
         before,
         normal,
         felt,
-        scale(1.0 / land.ball.mass, push),
+        scale(1.0 / land.ball.mass, given),
         restitution(material, -dot(before, normal)),
         material['softness'],
     )
@@ -166,7 +168,7 @@ def bounced(
 
 @kernel
 def ploughed(
-    land: Land, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
+    land: SceneRecord, motion: tuple[Vector, Vector], normal: Vector, material: MaterialRecord
 ) -> tuple[Vector, Vector]:
     """Velocity and spin after an impact with loose ground, into which the ball digs.
 
@@ -174,12 +176,12 @@ def ploughed(
     spin from its motion nor motion from its spin.
     """
     before, spin = motion
-    approach = max(-dot(before, normal), 0.0)
-    e = restitution(material, approach)
-    push = (1.0 + e) * approach
-    along = shortened(tangential(before, normal), material['ploughing'] * push)
-    rubbed = material['dynamic_friction'] * push / (land.ball.inertia * land.ball.radius)
-    return add_scaled(along, e * approach, normal), shortened(spin, rubbed)
+    approach_speed = max(-dot(before, normal), 0.0)
+    e = restitution(material, approach_speed)
+    normal_impulse = (1.0 + e) * approach_speed
+    along = shortened(tangential(before, normal), material['ploughing'] * normal_impulse)
+    rubbed = material['dynamic_friction'] * normal_impulse / (land.ball.inertia * land.ball.radius)
+    return add_scaled(along, e * approach_speed, normal), shortened(spin, rubbed)
 
 
 @kernel
@@ -191,7 +193,7 @@ def shortened(arrow: Vector, by: float) -> Vector:
 
 @kernel
 def choose_after_impact(
-    land: Land,
+    land: SceneRecord,
     ball: BallRecord,
     now: float,
     impact: tuple[bool, float, float],
@@ -205,7 +207,7 @@ def choose_after_impact(
     The ball flies, or stays on what it hit if gravity presses it there, or on what it was on
     before.
     """
-    supported, approach, rebound = impact
+    supported, approach_speed, rebound = impact
     if is_pressed_by_gravity(land, ball, normal):
         press = -dot(gravity_at(land.effects, load(ball['position'])), normal)
         bounciness = 1.0
@@ -221,7 +223,7 @@ def choose_after_impact(
             return
     else:
         # A wall has no micro-bounces to sum: a least rebound bounds the number of impacts instead.
-        least = min(approach, wall_rebound(land, ball))
+        least = min(approach_speed, wall_rebound(land, ball))
         if rebound < least:
             store(ball['velocity'], add_scaled(load(ball['velocity']), least - rebound, normal))
         if supported and abs(dot(load(ball['velocity']), load(ball['normal']))) <= LEAST_SPEED:
@@ -233,7 +235,7 @@ def choose_after_impact(
 
 @kernel
 def effective_restitution(
-    land: Land, ball: BallRecord, normal: Vector, material: MaterialRecord, rebound: float
+    land: SceneRecord, ball: BallRecord, normal: Vector, material: MaterialRecord, rebound: float
 ) -> float:
     """Constant restitution with which the remaining bounces would last as long in all.
 
@@ -250,19 +252,19 @@ def effective_restitution(
     if rebound <= LEAST_SPEED:
         return 0.0
     e0 = restitution(material, 0.0)
-    approach = rebound / (1.0 + e0)
-    before = add_scaled(tangential(load(ball['velocity']), normal), -approach, normal)
+    approach_speed = rebound / (1.0 + e0)
+    before = add_scaled(tangential(load(ball['velocity']), normal), -approach_speed, normal)
     after, _ = bounced(land, (before, load(ball['spin'])), normal, material)
-    e = dot(after, normal) / approach
+    e = dot(after, normal) / approach_speed
     if e - e0 < STEADY_RATIO * (1.0 - e0) and material['ploughing'] == 0.0:
         return e
     if rebound < LAST_SHARE * micro_bounce_threshold(land, ball):
-        return restitution(material, approach)
+        return restitution(material, approach_speed)
     return 1.0
 
 
 @kernel
-def wall_rebound(land: Land, ball: BallRecord) -> float:
+def wall_rebound(land: SceneRecord, ball: BallRecord) -> float:
     """Approach speed [m/s] up to which a wall has restitution 1."""
     if surfaces.hollow(land.ground, ball['target']) == 0.0:
         return WALL_REBOUND
@@ -270,8 +272,10 @@ def wall_rebound(land: Land, ball: BallRecord) -> float:
 
 
 @kernel
-def micro_bounce_threshold(land: Land, ball: BallRecord) -> float:
-    """Rebound [m/s] below which the remaining bounces are summed as micro-bounces.
+def micro_bounce_threshold(land: SceneRecord, ball: BallRecord) -> float:
+    """Restitution threshold: rebound [m/s] below which the remaining bounces are summed.
+
+    Other engines stop the ball there; here its micro-bounces keep their time and friction.
 
     It is less for a fast ball. The air acts on their sum at once, a little early: an error of
     position in proportion to the square of the speed and to the square of the time that they last.
@@ -284,7 +288,7 @@ def micro_bounce_threshold(land: Land, ball: BallRecord) -> float:
 
 
 @shared
-def cross_border(land: Land, ball: BallRecord, now: float) -> None:
+def cross_border(land: SceneRecord, ball: BallRecord, now: float) -> None:
     """Find the support of a ball that has reached a border in plan.
 
     Writes motion, phase, step, contact.

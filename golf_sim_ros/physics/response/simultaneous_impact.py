@@ -30,7 +30,7 @@ import numpy as np
 from .contact_set import separation_rate
 from ..collision.workspace import CONTACTS, INVOLVED
 from ..jit import kernel, shared
-from ..kernel_types import ContactRecord, Land, Vector, WorkRecord
+from ..kernel_types import ContactRecord, SceneRecord, Vector, WorkRecord
 from ..mechanics.impulse import apply_impulse, ContactProperties, friction, slip
 from ..mechanics.vector import add, add_scaled, dot, length, load, scale, store, sub, ZERO
 
@@ -39,7 +39,7 @@ MOST_GRADIENT_STEPS = 3000
 
 
 @shared
-def solve_reflections(land: Land, balls: np.ndarray, work: WorkRecord) -> None:
+def solve_reflections(land: SceneRecord, balls: np.ndarray, work: WorkRecord) -> None:
     """Solve the impacts of all contacts at once.
 
     Writes velocity, spin, contacts, contact_counts, velocity_change.
@@ -104,12 +104,14 @@ def project_impulses(work: WorkRecord) -> None:
             if not row['active']:
                 continue
             slope = row['rate'] + rate_change(work, row)
-            push = max(row['extrapolated_impulse'] - slope / most, 0.0)
-            turned += (row['extrapolated_impulse'] - push) * (push - row['normal_impulse'])
+            projected = max(row['extrapolated_impulse'] - slope / most, 0.0)
+            turned += (row['extrapolated_impulse'] - projected) * (
+                projected - row['normal_impulse']
+            )
             row['previous_impulse'] = row['normal_impulse']
-            row['normal_impulse'] = push
-            changed = max(changed, abs(push - row['previous_impulse']))
-            largest = max(largest, push)
+            row['normal_impulse'] = projected
+            changed = max(changed, abs(projected - row['previous_impulse']))
+            largest = max(largest, projected)
         if changed <= 1e-15 * largest:  # as exact as doubles: symmetric racks must stay symmetric
             break
         following = 0.5 * (1.0 + sqrt(1.0 + 4.0 * momentum * momentum))
@@ -178,7 +180,7 @@ def rate_change(work: WorkRecord, row: ContactRecord) -> float:
 
 
 @kernel
-def apply_impulses(land: Land, balls: np.ndarray, work: WorkRecord, last: bool) -> None:
+def apply_impulses(land: SceneRecord, balls: np.ndarray, work: WorkRecord, last: bool) -> None:
     """Apply normal impulses, with restitution unless it is the `last` round, then friction.
 
     Writes motion, friction_impulse, impulse.
@@ -187,8 +189,8 @@ def apply_impulses(land: Land, balls: np.ndarray, work: WorkRecord, last: bool) 
     for n in range(work.counts[CONTACTS]):
         row = contacts[n]
         if row['active']:
-            push = applied_impulse(land, row, last)
-            apply_to_both(land, balls, row, scale(push, load(row['normal'])))
+            normal_impulse = applied_impulse(land, row, last)
+            apply_to_both(land, balls, row, scale(normal_impulse, load(row['normal'])))
     # All tangential impulses are found before any is applied (Jacobi, not Gauss-Seidel), and the
     # contacts of a ball share its slip: so no contact comes first.
     for n in range(work.counts[CONTACTS]):
@@ -197,9 +199,9 @@ def apply_impulses(land: Land, balls: np.ndarray, work: WorkRecord, last: bool) 
             bond = ContactProperties(
                 0.0, row['tangential_restitution'], row['friction'], row['mass'], land.ball.inertia
             )
-            push = applied_impulse(land, row, last)
-            rub = friction(bond, push, contact_slip(land, balls, row))
-            store(row['friction_impulse'], scale(1.0 / row['contact_count'], rub))
+            normal_impulse = applied_impulse(land, row, last)
+            tangent_impulse = friction(bond, normal_impulse, contact_slip(land, balls, row))
+            store(row['friction_impulse'], scale(1.0 / row['contact_count'], tangent_impulse))
     for n in range(work.counts[CONTACTS]):
         row = contacts[n]
         if row['active']:
@@ -207,24 +209,26 @@ def apply_impulses(land: Land, balls: np.ndarray, work: WorkRecord, last: bool) 
 
 
 @kernel
-def applied_impulse(land: Land, row: ContactRecord, last: bool) -> float:
+def applied_impulse(land: SceneRecord, row: ContactRecord, last: bool) -> float:
     """Compute a contact's normal impulse [N s], with restitution unless in the `last` round."""
     e = 0.0 if last else row['restitution']
     return row['normal_impulse'] * ((1.0 + e) * land.ball.mass)
 
 
 @kernel
-def apply_to_both(land: Land, balls: np.ndarray, row: ContactRecord, push: Vector) -> None:
-    """Apply the impulse `push` [N s] to both bodies of a contact. Writes motion, impulse."""
+def apply_to_both(
+    land: SceneRecord, balls: np.ndarray, row: ContactRecord, impulse: Vector
+) -> None:
+    """Apply `impulse` [N s] to both bodies of a contact. Writes motion, impulse."""
     normal = load(row['normal'])
-    store(row['impulse'], add(load(row['impulse']), push))
-    apply_impulse(balls[row['a']], push, normal, land.ball)
+    store(row['impulse'], add(load(row['impulse']), impulse))
+    apply_impulse(balls[row['a']], impulse, normal, land.ball)
     if row['b'] >= 0:
-        apply_impulse(balls[row['b']], scale(-1.0, push), scale(-1.0, normal), land.ball)
+        apply_impulse(balls[row['b']], scale(-1.0, impulse), scale(-1.0, normal), land.ball)
 
 
 @kernel
-def contact_slip(land: Land, balls: np.ndarray, row: ContactRecord) -> Vector:
+def contact_slip(land: SceneRecord, balls: np.ndarray, row: ContactRecord) -> Vector:
     """Slip [m/s] of a contact: tangential velocity of `a`'s surface, relative to the other's."""
     a = balls[row['a']]
     velocity = load(a['velocity'])

@@ -18,7 +18,7 @@ Event by event their impacts would follow each other ever faster (Zeno). Such ba
 time-stepped: they move in small steps, all at the same instants, at each of which their contacts
 are solved together (contact_solver.py). A ball without contact returns to flight, one with contact
 to the ground alone to sliding or rolling. A ball that has been still for a while falls asleep; it
-wakes when it is touched or when what it rests on moves.
+wakes when it is touched or when what it rests on moves: sleeping is each ball's, not an island's.
 
 The velocity of a time-stepped ball is that half-way through its step (leapfrog), so that a step in
 free fall is exact; one that has only just joined has its velocity at the start.
@@ -52,7 +52,7 @@ from ..contact.contact_state import touch_down
 from ..effects import gravity_at
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, WorkRecord
+from ..kernel_types import BallRecord, SceneRecord, WorkRecord
 from ..mechanics.vector import add_scaled, length, load, scale, store, sub, ZERO
 from ..state.ball import HOLED, JOINED, NO_PART, REST, STEP_END, STEPPED
 from ..state.transitions import come_to_rest, take_off
@@ -133,7 +133,7 @@ def touches_ball(balls: np.ndarray, work: WorkRecord, i: int, radius: float, now
 
 @ball_interactions.step_together.register(MultiBallWorkspace)
 def _step_together(
-    work: MultiBallWorkspace, land: Land, balls: np.ndarray, i: int, now: float
+    work: MultiBallWorkspace, land: SceneRecord, balls: np.ndarray, i: int, now: float
 ) -> bool:
     if balls[i]['time_stepping']:
         if is_step_time(now):
@@ -173,7 +173,7 @@ def _wake(work: MultiBallWorkspace, balls: np.ndarray, radius: float, now: float
 
 
 @shared
-def solve_time_step(land: Land, balls: np.ndarray, now: float, work: WorkRecord) -> None:
+def solve_time_step(land: SceneRecord, balls: np.ndarray, now: float, work: WorkRecord) -> None:
     """Solve one time step of all time-stepped balls that are due. Writes ball, work."""
     for i in range(len(balls)):
         if (
@@ -198,7 +198,7 @@ def solve_time_step(land: Land, balls: np.ndarray, now: float, work: WorkRecord)
 
 
 @kernel
-def apply_gravity(land: Land, balls: np.ndarray, work: WorkRecord, i: int) -> None:
+def apply_gravity(land: SceneRecord, balls: np.ndarray, work: WorkRecord, i: int) -> None:
     """Apply gravity to a ball up to half-way through its next step.
 
     Writes solved_motion, time_stepping.
@@ -214,7 +214,9 @@ def apply_gravity(land: Land, balls: np.ndarray, work: WorkRecord, i: int) -> No
 
 
 @shared
-def collect_resting_contacts(land: Land, balls: np.ndarray, work: WorkRecord, now: float) -> None:
+def collect_resting_contacts(
+    land: SceneRecord, balls: np.ndarray, work: WorkRecord, now: float
+) -> None:
     """Collect the contacts of the involved balls within reach; sleepers that they push join.
 
     Writes contacts, involved, neighbours, solved_motion, pile, phase, step, struck_at,
@@ -225,9 +227,9 @@ def collect_resting_contacts(land: Land, balls: np.ndarray, work: WorkRecord, no
     while k < work.counts[INVOLVED]:
         i = work.involved[k]
         add_ground_contacts(land, balls[i], i, work, reach)
-        found, watch = neighbours_within(balls, work, i, reach, land.ball.radius, now)
+        found, close_by = neighbours_within(balls, work, i, reach, land.ball.radius, now)
         balls[i]['contact_reach'] = reach
-        balls[i]['watches_neighbours'] = watch
+        balls[i]['watches_neighbours'] = close_by
         for n in range(found):
             j = work.solver.neighbours[n]
             if 0 <= work.involved_index[j] < k:
@@ -249,7 +251,7 @@ def collect_resting_contacts(land: Land, balls: np.ndarray, work: WorkRecord, no
 
 
 @kernel
-def choose_after_step(land: Land, ball: BallRecord, now: float, work: WorkRecord) -> None:
+def choose_after_step(land: SceneRecord, ball: BallRecord, now: float, work: WorkRecord) -> None:
     """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
 
     Writes motion, phase, step, material, pile, asleep.

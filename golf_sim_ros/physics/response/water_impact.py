@@ -18,7 +18,7 @@ from math import asin, pi, sqrt
 
 from .collision_log import log_impact, NOT_A_PART
 from ..jit import kernel, shared
-from ..kernel_types import BallProperties, BallRecord, Land, Vector
+from ..kernel_types import BallProperties, BallRecord, SceneRecord, Vector
 from ..mechanics.vector import dot, length, load, scale, store, sub, UP
 from ..properties.water import ADDED_MASS, WATER_DENSITY
 from ..state.ball import FLIGHT, moves, NO_PART
@@ -50,7 +50,9 @@ def specific_gravity(record: BallProperties) -> float:
 
 
 @shared
-def resolve_water_impact(land: Land, ball: BallRecord, number: int, now: float, log: Log) -> None:
+def resolve_water_impact(
+    land: SceneRecord, ball: BallRecord, number: int, now: float, log: Log
+) -> None:
     """Resolve the impact of ball `number` with water, ricochet or entry, and log it.
 
     A ball that enters shares its momentum with its added mass. Writes water, velocity, spin,
@@ -76,14 +78,19 @@ def resolve_water_impact(land: Land, ball: BallRecord, number: int, now: float, 
     ball['step'] = 0.0
     ball['rapid_impacts'] = 0
     ball['time_stepping'] = 0
-    push = scale(land.ball.mass, sub(load(ball['velocity']), velocity))
+    impulse = scale(land.ball.mass, sub(load(ball['velocity']), velocity))
     log_impact(
-        ball, (now, number), (WATER_HIT, NOT_A_PART, NOT_A_PART, UP), (velocity, spin), push, log
+        ball,
+        (now, number),
+        (WATER_HIT, NOT_A_PART, NOT_A_PART, UP),
+        (velocity, spin),
+        impulse,
+        log,
     )
 
 
 @kernel
-def skips_off(land: Land, ball: BallRecord, velocity: Vector, heavy: float) -> bool:
+def skips_off(land: SceneRecord, ball: BallRecord, velocity: Vector, heavy: float) -> bool:
     """Whether a ball of specific gravity `heavy` that hits water at `velocity` ricochets."""
     speed = length(velocity)
     under = land.ground.waters.levels[ball['target'] - 1] - ball['position'][2]
@@ -95,7 +102,7 @@ def skips_off(land: Land, ball: BallRecord, velocity: Vector, heavy: float) -> b
 
 
 @kernel
-def leave_water(land: Land, ball: BallRecord) -> None:
+def leave_water(land: SceneRecord, ball: BallRecord) -> None:
     """Take a ball that rises above the surface, a light one or one sent up, out of water.
 
     Writes water.
@@ -108,7 +115,7 @@ def leave_water(land: Land, ball: BallRecord) -> None:
 
 
 @kernel
-def has_ended_in_water(land: Land, ball: BallRecord) -> bool:
+def has_ended_in_water(land: SceneRecord, ball: BallRecord) -> bool:
     """Whether a ball in water has reached ground, or is so slow that it only sinks or floats."""
     if ball['water'] == 0 or not moves(ball['phase']):
         return False
@@ -118,7 +125,7 @@ def has_ended_in_water(land: Land, ball: BallRecord) -> bool:
 
 
 @kernel
-def only_sinks(land: Land, ball: BallRecord, place: Vector, v: Vector) -> bool:
+def only_sinks(land: SceneRecord, ball: BallRecord, place: Vector, v: Vector) -> bool:
     """Whether the ball, which is in water, only sinks or floats once it is at `place` with `v`."""
     depth = land.ground.waters.levels[ball['water'] - 1] - place[2]
     slow = dot(v, v) < SINKING_SPEED * SINKING_SPEED
@@ -126,7 +133,7 @@ def only_sinks(land: Land, ball: BallRecord, place: Vector, v: Vector) -> bool:
 
 
 @kernel
-def sinking_time(land: Land, ball: BallRecord, until: float) -> float:
+def sinking_time(land: SceneRecord, ball: BallRecord, until: float) -> float:
     """Time on the segment from which the ball only sinks or floats; `until` if it does not then.
 
     It is at most `until`, and up to 2 LATE late.

@@ -37,7 +37,7 @@ from ..collision.ground_contact import HOLDING_GAP
 from ..collision.workspace import CONTACTS
 from ..contact.contact_state import touch_down
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, WorkRecord
+from ..kernel_types import BallRecord, SceneRecord, WorkRecord
 from ..mechanics.vector import add, length, load, store, ZERO
 from ..state.ball import NO_PART
 from ..state.transitions import come_to_rest, take_off
@@ -65,7 +65,9 @@ def wedged_step_length(ball: BallRecord) -> float:
 
 
 @shared
-def step_wedged(land: Land, balls: np.ndarray, i: int, now: float, work: WorkRecord) -> None:
+def step_wedged(
+    land: SceneRecord, balls: np.ndarray, i: int, now: float, work: WorkRecord
+) -> None:
     """Solve the contacts of the wedged ball `i` at a time step's end.
 
     A ball with one support left, or none, is no longer wedged. Writes motion, phase, contact,

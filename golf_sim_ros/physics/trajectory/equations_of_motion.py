@@ -19,7 +19,7 @@ from math import inf
 from ..effects import flight_rates, gravity_at, moving_air, sinking
 from ..geometry import surfaces
 from ..jit import kernel, shared
-from ..kernel_types import BallRecord, Land, MaterialRecord, ModelRecord, Vector
+from ..kernel_types import BallRecord, MaterialRecord, ModelRecord, SceneRecord, Vector
 from ..mechanics.impulse import slip
 from ..mechanics.vector import (
     add,
@@ -69,7 +69,7 @@ def rates(
 
 
 @kernel
-def material_under(land: Land, ball: BallRecord) -> MaterialRecord:
+def material_under(land: SceneRecord, ball: BallRecord) -> MaterialRecord:
     """Row of the material that the ball is in contact with."""
     return land.materials[ball['material']]
 
@@ -177,7 +177,7 @@ def micro_bounce_forces(
 
 
 @kernel
-def pull_at(land: Land, place: Vector, velocity: Vector, spin: Vector) -> Vector:
+def pull_at(land: SceneRecord, place: Vector, velocity: Vector, spin: Vector) -> Vector:
     """Acceleration of a ball in contact by its weight and by moving air."""
     return add(
         gravity_at(land.effects, place), moving_air(land.air, land.ground, place, velocity, spin)
@@ -185,7 +185,7 @@ def pull_at(land: Land, place: Vector, velocity: Vector, spin: Vector) -> Vector
 
 
 @kernel
-def supporting_surface(land: Land, ball: BallRecord, place: Vector) -> tuple[float, Vector]:
+def supporting_surface(land: SceneRecord, ball: BallRecord, place: Vector) -> tuple[float, Vector]:
     """Distance of `place` from the surface that supports the ball, and the normal there.
 
     Flat ground counts as a plane without end: it is left at a border, an event of its own.
@@ -198,7 +198,7 @@ def supporting_surface(land: Land, ball: BallRecord, place: Vector) -> tuple[flo
 
 @kernel
 def turning_surface(
-    land: Land, ball: BallRecord, place: Vector, velocity: Vector
+    land: SceneRecord, ball: BallRecord, place: Vector, velocity: Vector
 ) -> TurningSurface:
     """`supporting_surface`, and the rate of change of its normal as the ball moves."""
     if ball['on_flat'] == 1:
@@ -224,7 +224,7 @@ def kept_surface(ball: BallRecord) -> tuple[float, Vector]:
 
 @kernel
 def contact_rates(
-    land: Land, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
+    land: SceneRecord, ball: BallRecord, place: Vector, velocity: Vector, spin: Vector
 ) -> tuple[Vector, Vector, float, float, float]:
     """`rates_on` the surface that supports the ball, which is kept. Writes stages."""
     surface = turning_surface(land, ball, place, velocity)
@@ -256,7 +256,10 @@ def settled_speed(velocity: Vector, drive: Vector, resistance: float) -> float:
 
 @shared
 def rates_on(
-    land: Land, ball: BallRecord, surface: TurningSurface, motion: tuple[Vector, Vector, Vector]
+    land: SceneRecord,
+    ball: BallRecord,
+    surface: TurningSurface,
+    motion: tuple[Vector, Vector, Vector],
 ) -> tuple[Vector, Vector, float, float, float]:
     """Acceleration, angular acceleration, press, friction needed to roll, and a time.
 
