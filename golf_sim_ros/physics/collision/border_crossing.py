@@ -121,6 +121,12 @@ def limit_crossing_time(
 
 
 @kernel
+def is_told(ball: BallRecord, time: float, nearing: float) -> bool:
+    """Whether LOOK_AHEAD tells what is across a border that the ball nears at a speed [m/s]."""
+    return nearing * surfaces.LOOK_AHEAD > BEYOND * length(velocity(ball, time))
+
+
+@kernel
 def border_crossing_time(
     border: StructRecord, ball: BallRecord, shift: Vector, bend: float, until: float
 ) -> tuple[float, bool]:
@@ -128,12 +134,16 @@ def border_crossing_time(
 
     And whether it crosses; if not, the time up to which it was searched. Where it crosses so
     obliquely that LOOK_AHEAD does not tell what is there, the time is that at which it is BEYOND
-    the border. A segment that starts on the border has crossed it already.
+    the border. A segment that starts on the border has crossed it already, unless it nears it so.
     """
     time = 0.0
     start = add(position(ball, 0.0), shift)
     gap, direction = surfaces.distance_in_plan(border, start[0], start[1])
     if gap <= 2 * TOUCH:
+        nearing = -dot(direction, velocity(ball, 0.0))
+        if nearing > 0.0 and not is_told(ball, 0.0, nearing):  # still on its near side
+            across = BEYOND / nearing
+            return (across, True) if across < until else (until, False)
         # Some 10 nm past the border, or the next segment would end on it again, and so on without
         # end.
         speed = length(velocity(ball, 0.0))
@@ -147,7 +157,7 @@ def border_crossing_time(
         if gap <= TOUCH:  # on the line there is no direction from it: the approach decides
             if rate >= 0.0:
                 return until, False
-            if -rate * surfaces.LOOK_AHEAD > BEYOND * length(velocity(ball, time)):
+            if is_told(ball, time, -rate):
                 return time, True
             across = time + BEYOND / -rate
             return across if across < until else time, True
