@@ -33,6 +33,8 @@ MotionState = tuple[float, float, float, float, float, float, float, float, floa
 Heights = tuple[float, float, float, float, float, float]
 # height of a bicubic surface, and its derivatives by x, y, xx, xy and yy
 SurfacePoint = tuple[float, float, float, float, float, float]
+# its derivatives by xxx, xxy, xyy, yyy, xxxy, xxyy and xyyy
+HigherDerivatives = tuple[float, float, float, float, float, float, float]
 # a rectangle in plan: least x and y, greatest x and y
 Rectangle = tuple[float, float, float, float]
 

@@ -32,8 +32,8 @@ from golf_sim_ros.physics import (
     Restitution,
     World,
 )
-from golf_sim_ros.physics.geometry import heightmap, surface_protocol
-from golf_sim_ros.physics.geometry.bicubic import nodes
+from golf_sim_ros.physics.geometry import closest_point, heightmap, surface_protocol
+from golf_sim_ros.physics.geometry.bicubic import bicubic, in_cell, jet, nodes
 from golf_sim_ros.physics.jit import entry
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -135,6 +135,77 @@ def test_nearest_is_what_brute_force_finds():
         # from afar a second hollow may be missed by a hair
         assert brute - 0.01 <= distance <= brute + 1e-3
         assert np.linalg.norm(normal) == pytest.approx(1, abs=1e-12)
+
+
+def test_taylors_formula_in_a_cell_leaves_out_what_is_of_fifth_order():
+    hills = surface(lambda x, y: np.sin(x) * np.sin(0.5 * y * y))
+    kind = heightmap.build([hills], {GREEN: 0})
+    grid = kind.grids[0]
+    # The greatest errors of height, slope and curvature, by distance.
+    errors = {0.02: np.zeros(6), 0.04: np.zeros(6)}
+    random = np.random.default_rng(4)
+    for cell, place, way in zip(
+        random.integers(0, 40, (200, 2)),
+        random.uniform(0.2, 0.8, (200, 2)),
+        random.uniform(0, 7, 200),
+    ):
+        x, y = 0.5 * (cell + place)
+        there = jet(kind.nodes, grid, x, y)
+        for step, most in errors.items():
+            dx, dy = step * np.cos(way), step * np.sin(way)
+            found = np.subtract(in_cell(*there, dx, dy), bicubic(kind.nodes, grid, x + dx, y + dy))
+            np.maximum(most, abs(found), out=most)
+    ratio = errors[0.04] / errors[0.02]
+    assert ratio == pytest.approx([32, 16, 16, 8, 8, 8], rel=0.2)
+
+
+@pytest.mark.parametrize('cell', [False, True])
+def test_the_closest_point_found_with_one_look_is_that_of_two(cell, monkeypatch):
+    """Wherever a point is over the map, or over or beside one of its cells, and near it."""
+    hills = surface(lambda x, y: 0.2 * np.sin(x) * np.sin(0.7 * y))
+    kind = heightmap.build([hills], {GREEN: 0})
+    grid = kind.grids[0]
+    found = {}
+    for close in (closest_point.CLOSE, 0.0):
+        monkeypatch.setattr(closest_point, 'CLOSE', close)
+        random = np.random.default_rng(6)
+        found[close] = []
+        for low_x, low_y, *place, height in random.uniform(-0.02, 1.02, (600, 5)):
+            low = 0.5 * np.round(39 * np.clip((low_x, low_y), 0.0, 1.0))
+            box = (*low, *(low + 0.5)) if cell else (0.0, 0.0, 20.0, 20.0)
+            x, y = low + 0.5 * np.array(place) if cell else 20.0 * np.array(place)
+            start = np.clip((x, y), box[:2], box[2:])
+            z = bicubic(kind.nodes, grid, *start)[0] + 2.0 * RADIUS * height
+            px, py, at = closest_point.descend(kind.nodes, grid, box, *start, (x, y, z))
+            found[close].append((px, py, *at))
+    one, two = (np.array(points) for points in found.values())
+    off = np.abs(one - two).max(axis=0)
+    assert max(off[:2]) < 1e-9 and off[2] < 1e-12 and max(off[3:5]) < 1e-9 and max(off[5:]) < 1e-7
+    assert 100 < np.count_nonzero(np.any(one != two, axis=1))  # found with one look
+
+
+@entry
+def hollow_around(kind, part, point, reach):
+    """Bound on the hollows of a part of a kind around a point; Python can call it."""
+    return surface_protocol.hollow_around(kind, part, point, reach)
+
+
+def test_hollows_around_a_place_are_those_of_the_cells_there():
+    hills = surface(lambda x, y: np.sin(x) * np.sin(0.5 * y * y))
+    kind = heightmap.build([hills], {GREEN: 0})
+    (grid,) = kind.grids
+    cells = kind.cells[:, 2].reshape(grid['ny'], grid['nx'])
+    whole = grid['number']
+    for x, y, reach in np.random.default_rng(3).uniform(
+        (-9.0, -9.0, 0.0), (9.0, 9.0, 1.0), (60, 3)
+    ):
+        left, right = (int((x + 10.0 + way) / 0.5) for way in (-reach, reach))
+        front, back = (int((y + 10.0 + way) / 0.5) for way in (-reach, reach))
+        rows, columns = slice(max(front, 0), back + 1), slice(max(left, 0), right + 1)
+        there = cells[rows, columns].max()
+        assert hollow_around(kind, whole, (x, y, 0.5), reach) == there
+    assert hollow_around(kind, whole, (0.0, 0.0, 0.5), 50.0) == grid['hollow'] == cells.max()
+    assert hollow_around(kind, 7, (0.0, 0.0, 0.5), 0.1) == kind.cells[7, 2]
 
 
 def test_a_ball_in_a_bowl_swings_at_5_7_of_a_sliding_one():

@@ -14,6 +14,7 @@
 
 """No shot passes through anything; `make hard` fires a hundred thousand at each target."""
 
+from golf_sim_ros.physics import ACCURACY
 from nothing_passes import TARGETS
 import pytest
 
@@ -24,4 +25,5 @@ COUNT = 60
 @pytest.mark.parametrize('accuracy', ['sketch', 'standard'])
 def test_no_shot_passes_through(target, accuracy):
     passed, depth = TARGETS[target]((COUNT, accuracy, 250))
-    assert passed == 0 and depth < 2e-6
+    # A ball on the ground is as deep as its preset lets a path be off: see docs/stability.md.
+    assert passed == 0 and depth < max(2e-6, ACCURACY[accuracy].limits.path)

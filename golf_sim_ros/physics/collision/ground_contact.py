@@ -246,10 +246,8 @@ def relief_impact_time(
     A loop of its own, out of line: most of its advances ask for a height and no nearest point.
     Writes segments_spent.
     """
-    hollow = surfaces.hollow(ground, part)
     fastest = greatest_speed(ball)
     bend = greatest_acceleration(ball)
-    bent = bend + 2.0 * hollow * fastest * fastest
     time = begin
     for _ in range(MOST_ADVANCES):
         time = time_near_relief(ground, part, ball, radius, time, until)
@@ -258,6 +256,10 @@ def relief_impact_time(
         ball['segments_spent'] += LOOK
         place = position(ball, time)
         distance, normal = surfaces.nearest(ground, part, place)
+        # Up to `until` the closest point is nowhere else.
+        reach = abs(distance) + fastest * (until - time)
+        hollow = surfaces.hollow_around(ground, part, place, reach)
+        bent = bend + 2.0 * hollow * fastest * fastest
         gap = distance - radius
         rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
@@ -273,7 +275,7 @@ def relief_impact_time(
             bent * sure * sure < TOUCH
             and rate < -PLAIN_APPROACH
             and time < until
-            and surfaces.touchable(ground, part, position(ball, time))
+            and surfaces.touchable_within(ground, part, position(ball, time), 2.0 * radius)
         ):
             return time, True
     return time, False
@@ -335,7 +337,7 @@ def time_of_impact(
                 max(bend, rises) * sure * sure < TOUCH
                 and rate < -PLAIN_APPROACH
                 and time < until
-                and surfaces.touchable(ground, part, position(ball, time))
+                and surfaces.touchable_within(ground, part, position(ball, time), 2.0 * radius)
             ):
                 # Another advance would change less than TOUCH: the gap is within bend s^2 / 2 of
                 # zero by now.

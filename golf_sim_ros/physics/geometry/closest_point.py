@@ -21,9 +21,9 @@ origin.
 
 import numpy as np
 
-from .bicubic import bicubic
+from .bicubic import bicubic, cell_at, in_cell, jet
 from ..jit import kernel, shared
-from ..kernel_types import Rectangle, StructRecord, SurfacePoint, Vector
+from ..kernel_types import HigherDerivatives, Rectangle, StructRecord, SurfacePoint, Vector
 
 MOST_NEWTON_STEPS = 60
 CONVERGED_STEP = 1e-13  # of the spacing: shorter steps change nothing
@@ -31,7 +31,10 @@ CONVERGED_STEP = 1e-13  # of the spacing: shorter steps change nothing
 SURE = 1e-6
 # Of the spacing: after such a step the next would be rounding, for each errs by the last one's
 # square, and so would what Taylor's formula leaves out of the height and the slopes.
-LAST = 1e-7
+LAST = 1e-6
+# Of the spacing: what is so near a look in the same cell tells as well as another look would, to
+# 1e-10 of the curvature times the spacing.
+CLOSE = 1e-2
 START_SAMPLES = 5  # a side, to start from where there may be several local minima
 Samples = tuple[float, float, float, float, float]  # of a row of START_SAMPLES
 NO_SAMPLES = (1e300, 1e300, 1e300, 1e300, 1e300)
@@ -107,8 +110,8 @@ def descend(
     """Local minimum of the distance from `point`, downhill from `x`, `y`, and `bicubic` there."""
     x0, y0, x1, y1 = box
     size = grid['spacing']
-    at = bicubic(table, grid, x, y)
-    for _ in range(MOST_NEWTON_STEPS):
+    at, higher = jet(table, grid, x, y)
+    for n in range(MOST_NEWTON_STEPS):
         gx, gy = pulls(point, x, y, at)
         fixed_x = held(x, x0, x1, gx)
         fixed_y = held(y, y0, y1, gy)
@@ -131,8 +134,11 @@ def descend(
         if abs(dx) + abs(dy) <= CONVERGED_STEP * size:
             break
         share = min(share_within(x, dx, x0, x1), share_within(y, dy, y0, y1))
-        if convex and share == 1.0 and abs(dx) + abs(dy) < LAST * size:
-            return x + dx, y + dy, moved_by(at, dx, dy)
+        if convex and share == 1.0:
+            if abs(dx) + abs(dy) < LAST * size:
+                return x + dx, y + dy, moved_by(at, dx, dy)
+            if n == 0 and is_close(grid, box, (x, y), (dx, dy)):
+                return closest_in_cell(point, (x, y), (at, higher), (dx, dy))
         # Backtracking line search with Armijo's condition.
         before = half_square(point, x, y, at[0])
         falling = gx * dx + gy * dy
@@ -152,6 +158,43 @@ def descend(
         if moved == 0.0:
             break
     return x, y, at
+
+
+@kernel
+def is_close(
+    grid: StructRecord, box: Rectangle, place: tuple[float, float], step: tuple[float, float]
+) -> bool:
+    """Whether Newton's `step` from a `place` is short, and twice it stays in cell and `box`."""
+    x, y = place
+    dx, dy = step
+    x0, y0, x1, y1 = box
+    far_x = x + 2.0 * dx
+    far_y = y + 2.0 * dy
+    return (
+        abs(dx) + abs(dy) < CLOSE * grid['spacing']
+        and x0 < far_x < x1
+        and y0 < far_y < y1
+        and cell_at(grid, x, y) == cell_at(grid, far_x, far_y)
+    )
+
+
+@kernel
+def closest_in_cell(
+    point: Vector,
+    place: tuple[float, float],
+    there: tuple[SurfacePoint, HigherDerivatives],
+    step: tuple[float, float],
+) -> tuple[float, float, SurfacePoint]:
+    """Closest point near a `place` in plan, by the `jet` `there`, and `bicubic` at it.
+
+    ``step``: the first one of Newton's method; the second is taken here.
+    """
+    x, y = place
+    dx, dy = step
+    at = in_cell(*there, dx, dy)
+    gx, gy = pulls(point, x + dx, y + dy, at)
+    more, less = newton(curvatures(point, at), (gx, gy), False, False)
+    return x + dx + more, y + dy + less, moved_by(at, more, less)
 
 
 @kernel

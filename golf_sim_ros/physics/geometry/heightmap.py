@@ -47,6 +47,7 @@ from ..properties.material import Material
 WIDE = 10.0
 SEVERAL = 256  # effort of a cell where the distance may have several minima
 ON_SEAM = 1e-9  # rad: above a seam but for this angle, a ball is above both cells
+MOST_AROUND = 36  # cells around a point whose own bounds are asked, and not that of the map
 INNER = 1e-6  # of the spacing: a foot so far within a cell is on no seam
 
 
@@ -104,6 +105,7 @@ def build(shapes: Sequence[Heightmap], material_number: Mapping[Material, int]) 
             (
                 shape.origin,
                 shape.spacing,
+                1.0 / shape.spacing,
                 nx,
                 ny,
                 node,
@@ -364,7 +366,8 @@ def _turn(kind: Maps, part: int, point: Vector, velocity: Vector) -> Vector:
                 velocity[2],
             )
             return turned(sub(velocity, moving), offset)
-    return turn_over(foot_under(kind, grid, part, local), local, velocity)
+    foot = foot_under(kind, grid, part, local)
+    return turn_over(foot, local, velocity, distance_from(foot, local))
 
 
 @surface_protocol.nearest_turning.register(Maps)
@@ -377,20 +380,21 @@ def _nearest_turning(
         return distance, normal, surface_protocol.turn(kind, part, point, velocity)
     local = from_origin(grid, point)
     foot = foot_under(kind, grid, part, local)
-    distance, normal = distance_from(foot, local)
-    return distance, normal, turn_over(foot, local, velocity)
+    distance, normal = away = distance_from(foot, local)
+    return distance, normal, turn_over(foot, local, velocity, away)
 
 
 @kernel
-def turn_over(foot: Foot, local: Vector, velocity: Vector) -> Vector:
+def turn_over(foot: Foot, local: Vector, velocity: Vector, away: tuple[float, Vector]) -> Vector:
     """Rate of change of the unit normal at the `foot` of a point that moves at `velocity`.
 
     The closest point moves so that it stays closest (implicit differentiation, with the Hessian
-    of half the squared distance); held by a border, it moves along that only.
+    of half the squared distance); held by a border, it moves along that only. ``away``: the
+    `distance_from` the foot.
     """
+    distance, normal = away
     x0, y0, x1, y1 = foot.box
     at = foot.at
-    offset = (local[0] - foot.x, local[1] - foot.y, local[2] - at[0])
     gx, gy = pulls(local, foot.x, foot.y, at)
     fixed_x = x0 == x1 or held(foot.x, x0, x1, gx)
     fixed_y = y0 == y1 or held(foot.y, y0, y1, gy)
@@ -404,10 +408,11 @@ def turn_over(foot: Foot, local: Vector, velocity: Vector) -> Vector:
     elif fixed_y and not fixed_x:
         dx = p / a
     elif not fixed_x and not fixed_y:
-        dx = (c * p - b * q) / (a * c - b * b)
-        dy = (a * q - b * p) / (a * c - b * b)
+        each = 1.0 / (a * c - b * b)
+        dx = (c * p - b * q) * each
+        dy = (a * q - b * p) * each
     rate = sub(velocity, (dx, dy, at[1] * dx + at[2] * dy))
-    return scale(-1.0 if foot.below else 1.0, turned(rate, offset))
+    return scale(1.0 / distance, tangential(rate, normal)) if distance != 0.0 else ZERO
 
 
 @kernel
@@ -466,6 +471,24 @@ def _is_inner(kind: Maps, part: int, foot: Vector) -> bool:
 def _hollow(kind: Maps, part: int) -> float:
     grid = kind.grids[grid_of(kind, part)]
     return grid['hollow'] if part == grid['number'] else kind.cells[bounds_of(kind, part), 2]
+
+
+@surface_protocol.hollow_around.register(Maps)
+def _hollow_around(kind: Maps, part: int, point: Vector, reach: float) -> float:
+    grid = kind.grids[grid_of(kind, part)]
+    if part != grid['number']:
+        return kind.cells[bounds_of(kind, part), 2]
+    x, y, _ = from_origin(grid, point)
+    left, front = cell_at(grid, x - reach, y - reach)
+    right, back = cell_at(grid, x + reach, y + reach)
+    if (right - left + 1) * (back - front + 1) > MOST_AROUND:
+        return grid['hollow']
+    greatest = 0.0
+    for row in range(front, back + 1):
+        first = grid['first_cell'] + row * grid['nx']
+        for k in range(first + left, first + right + 1):
+            greatest = max(greatest, kind.cells[k, 2])
+    return greatest
 
 
 @surface_protocol.relief.register(Maps)

@@ -100,6 +100,12 @@ def hollow(kind: KindRecord, part: int) -> float:
 
 
 @generic
+def hollow_around(kind: KindRecord, part: int, point: Vector, reach: float) -> float:
+    """`hollow` of what of `part` is no further than `reach` from `point`, or a greater bound."""
+    return hollow(kind, part)
+
+
+@generic
 def relief(kind: KindRecord, part: int) -> tuple[float, float]:
     """Bounds where `part` is a smooth surface over all of the plan, else zeros.
 

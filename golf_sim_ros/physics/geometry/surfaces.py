@@ -125,6 +125,7 @@ nearest_turning = of_its_kind(
     surface_protocol.nearest_turning, (1e300, (0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
 )
 hollow = of_its_kind(surface_protocol.hollow, 0.0)
+hollow_around = of_its_kind(surface_protocol.hollow_around, 0.0)
 relief = of_its_kind(surface_protocol.relief, (0.0, 0.0))
 height_above = of_its_kind(surface_protocol.height_above, (1e300, 0.0))
 effort = of_its_kind(surface_protocol.effort, 1)
@@ -224,6 +225,21 @@ def touchable_at(
     if len(ground.hole) > 0 and is_ground(ground, part) and in_hole(ground.hole, foot):
         return False
     return _is_inner(ground, part, foot) or _touchable(ground, part, point)
+
+
+@kernel
+def touchable_within(ground: Ground, part: int, point: Vector, reach: float) -> bool:
+    """`touchable`, of a `part` that is no further than `reach` from `point`.
+
+    Where the hole is further away no closest point is searched for it.
+    """
+    if len(ground.hole) > 0:
+        dx = point[0] - ground.hole[0]
+        dy = point[1] - ground.hole[1]
+        far = ground.hole[2] + reach
+        if dx * dx + dy * dy <= far * far:
+            return touchable(ground, part, point)
+    return _touchable(ground, part, point)
 
 
 @kernel
@@ -389,9 +405,15 @@ def depth(ground: Ground, point: Vector, radius: float) -> float:
 def room_in_plan(ground: Ground, point: Vector) -> float:
     """Distance in plan of `point` from the nearest border."""
     room = 1e300
-    for i in range(len(ground.borders)):
-        away, _ = distance_in_plan(ground.borders[i], point[0], point[1])
-        room = min(room, away)
+    for k in range(len(ground.border_lines)):
+        line = ground.border_lines[k]
+        dx = max(line['low'][0] - point[0], point[0] - line['high'][0], 0.0)
+        dy = max(line['low'][1] - point[1], point[1] - line['high'][1], 0.0)
+        if dx * dx + dy * dy >= room * room:
+            continue
+        for i in range(line['first'], line['last']):
+            away, _ = distance_in_plan(ground.borders[i], point[0], point[1])
+            room = min(room, away)
     return room
 
 
