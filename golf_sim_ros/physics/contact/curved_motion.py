@@ -51,7 +51,7 @@ from ..trajectory.segment import fit_segment, position
 MOST_NORMAL_TURN = 0.1  # rad by which the normal may turn in a step
 # of that in micro-bounces: nothing brakes, so an error between a step's ends shows as energy
 UNBRAKED = 0.5
-FIRST_STEP = 0.05  # s
+FIRST_STEP = 0.1  # s
 LEAST_STEP = 1e-9  # s
 SHORT_STEP = 1e-6  # s: a shorter step's end is not projected in position
 CORRECTIONS = 12  # attempts at a step, each shorter than the last
@@ -62,6 +62,8 @@ MOST_EFFORT = 32
 # of the press at the start: a step at whose end the ground would pull harder is shortened
 LIFTS = 1e-6
 APPROACH = 0.9  # of the time until friction is discontinuous: the longest step towards it
+BEYOND_LIMIT = 1.25  # times the step that would have been off the ground as far as it may be
+SLIDES_ON = 0.85  # of the step that its error allows: else many are tried twice near the end
 UNTOLD = 1e-2  # of the limit on a path's error: less tells nothing about a longer step
 # Energy over mass that a step may gain: so much for each metre that a path may be off, and so
 # much besides, which lifts a ball by 20 pm, and as much of the square of its speed.
@@ -69,7 +71,7 @@ GAIN = 0.03  # m/s^2
 LEAST_GAIN = 2e-10  # J/kg
 # Slip is removed at once below the limit on a path's error times SLIP_COUNTS, below LEAST_SLIP,
 # or below what friction takes in SLIP_TIME, which is longer than a least step.
-SLIP_COUNTS = 100.0  # 1/s
+SLIP_COUNTS = 200.0  # 1/s
 LEAST_SLIP = 1e-7  # m/s
 SLIP_TIME = 1e-8  # s
 
@@ -88,7 +90,7 @@ def curved_segment(
     place = load(ball['position'])
     v = load(ball['velocity'])
     w = load(ball['spin'])
-    force, _, press, needed, _ = rates_on(land, ball, surface, (place, v, w))
+    force, torque, press, needed, time = rates_on(land, ball, surface, (place, v, w))
     # The air is asked only where the weight does not hold the ball: see `press_with_air`.
     holding = press if press > 0.0 else press_with_air(model, surface, place, v, w)
     if holding <= 0.0:
@@ -101,10 +103,13 @@ def curved_segment(
     snap_small_motion(land, ball, force, press, grips, now)
     if not moves(ball['phase']):
         return
-    if load(ball['velocity']) != v:
+    changed = load(ball['velocity']) != v
+    if changed:
         v = load(ball['velocity'])
         surface = turning_surface(land, ball, place, v)
-    force, torque, press, _, time = rates_on(land, ball, surface, (place, v, load(ball['spin'])))
+    if changed or ball['phase'] != phase or load(ball['spin']) != w:
+        w = load(ball['spin'])
+        force, torque, press, _, time = rates_on(land, ball, surface, (place, v, w))
     store_stage(ball, 0, v, force, torque)
     change = time_to_change(land, ball, force, press, time)
     wanted = ball['step'] if ball['step'] > 0.0 and ball['phase'] == phase else FIRST_STEP
@@ -126,12 +131,15 @@ def curved_segment(
         left = step_share_to_change(land, ball, (v, slipping), (holding, held), normal)
         if left == 1.0:
             left = step_share_on_ground(land, ball)
-            following = min(following, 2.0 * h * left)  # what limits this step limits the next one
+            # What limits this step limits the next one.
+            following = min(following, BEYOND_LIMIT * h * left)
             if h == asked < wanted:  # not by its error
-                following = max(following, min(wanted, 2.0 * h * left))
+                following = max(following, min(wanted, BEYOND_LIMIT * h * left))
             else:  # friction's direction turns the faster the nearer its change is
                 most = following if h == asked else 1.5 * h
                 following = min(following, most) * max(1.0 - h / change, 0.1)
+                if ball['phase'] == SLIDE:
+                    following *= SLIDES_ON
             if left >= 1.0:
                 break
         if h * left <= LEAST_STEP:
@@ -348,15 +356,18 @@ def gained(land: SceneRecord, ball: BallRecord) -> float:
 def project_to_ground(land: SceneRecord, ball: BallRecord) -> tuple[float, Vector]:
     """Press at the segment's end, which is projected onto the ground and its tangent plane.
 
-    And the normal there. The position is not projected after the shortest of steps: its rounding
-    error far from the origin, 5e-14 m, over a nanosecond is speed. Writes curve, stages.
+    And the normal there. It is that of the step's last stage, and so is its rate: a place and a
+    velocity that move along the normal change neither. The position is not projected after the
+    shortest of steps: its rounding error far from the origin, 5e-14 m, over a nanosecond is speed.
+    Writes curve, stages.
     """
     r = land.ball.radius
     x0 = load(ball['position'])
     way = load(ball['position_coefficients'][5])
-    distance, normal = kept_surface(ball)  # of the step's last stage
+    distance, normal, turn = kept_surface(ball)
     if ball['span'] > SHORT_STEP:
         way = add_scaled(way, r - distance, normal)
+        distance = r
     end = add_scaled(x0, 1.0, way)
     velocity = end_velocity(ball)
     velocity = add_scaled(velocity, -dot(velocity, normal), normal)
@@ -364,8 +375,8 @@ def project_to_ground(land: SceneRecord, ball: BallRecord) -> tuple[float, Vecto
     if ball['phase'] == ROLL:
         spin = add_scaled(scale(1.0 / r, cross(normal, velocity)), dot(spin, normal), normal)
     store(ball['spin_coefficients'][3], spin)
-    surface = turning_surface(land, ball, end, velocity)
-    keep_surface(ball, surface[0], surface[1])
+    surface = distance, normal, turn
+    keep_surface(ball, surface)
     force, torque, press, _, _ = rates_on(land, ball, surface, (end, velocity, spin))
     first = ball['stages'][0]
     fit_segment(
@@ -375,7 +386,7 @@ def project_to_ground(land: SceneRecord, ball: BallRecord) -> tuple[float, Vecto
         (load(first[3:6]), force),
         (load(first[6:9]), torque),
     )
-    return press, surface[1]
+    return press, normal
 
 
 @kernel

@@ -66,7 +66,7 @@ from ..state.ball import (
 )
 from ..state.events import Log, LOST, SHOT_ENDS
 from ..state.transitions import hole_out, leave_bounds, sink
-from ..trajectory.equations_of_motion import kept_surface
+from ..trajectory.equations_of_motion import go_on_from_kept, kept_surface
 from ..trajectory.shot_record import (
     begin_shot,
     check_segment,
@@ -171,25 +171,46 @@ def resolve(model: ModelRecord, balls: np.ndarray, i: int, work: WorkRecord, log
     elif is_wedged(ball):
         step_wedged(model.land, balls, i, now, work)
     elif ball['phase'] != FLIGHT:
-        store(ball['normal'], normal_at_end(model.land, ball))
-        if ending == SLIP_STOPS:
-            stop_slip(model, ball)
-        elif ending == BALL_STOPS:
-            store(ball['velocity'], ZERO)
-        choose_contact_mode(model.land, ball, now)
+        go_on_in_contact(model, ball, now)
 
 
 @kernel
-def normal_at_end(land: SceneRecord, ball: BallRecord) -> Vector:
-    """Compute the normal under a ball in contact at the end of its segment."""
-    ground = land.ground
-    if surfaces.goes_on(ground, ball['support'], ball['support']):
-        _, normal = kept_surface(ball)
-        # A segment that was cut ends elsewhere; older records keep nothing.
-        if ball['end'] == ball['begin'] + ball['span'] and normal != ZERO:
-            return normal
+def go_on_in_contact(model: ModelRecord, ball: BallRecord, now: float) -> None:
+    """Resolve the end of a step of a ball in contact. Writes motion, normal, phase, stages."""
+    whole = has_whole_step(model.land, ball)
+    store(ball['normal'], normal_at_end(model.land, ball, whole))
+    if ball['ending'] == SLIP_STOPS:
+        stop_slip(model, ball)
+    elif ball['ending'] == BALL_STOPS:
+        store(ball['velocity'], ZERO)
+    choose_contact_mode(model.land, ball, now)
+    if whole and load(ball['velocity']) != ZERO:
+        go_on_from_kept(ball, now)
+
+
+@kernel
+def has_whole_step(land: SceneRecord, ball: BallRecord) -> bool:
+    """Whether the segment ends where a step on a smooth surface does, which is kept.
+
+    A segment that was cut ends elsewhere; older records keep nothing.
+    """
+    return (
+        surfaces.goes_on(land.ground, ball['support'], ball['support'])
+        and ball['end'] == ball['begin'] + ball['span']
+        and kept_surface(ball)[1] != ZERO
+    )
+
+
+@kernel
+def normal_at_end(land: SceneRecord, ball: BallRecord, whole: bool) -> Vector:
+    """Compute the normal under a ball in contact at the end of its segment.
+
+    ``whole``: `has_whole_step`.
+    """
+    if whole:
+        return kept_surface(ball)[1]
     ahead = unit(load(ball['velocity']), ZERO)
-    return surfaces.under(ground, ball['support'], load(ball['position']), ahead)[1]
+    return surfaces.under(land.ground, ball['support'], load(ball['position']), ahead)[1]
 
 
 @kernel

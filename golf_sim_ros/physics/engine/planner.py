@@ -75,7 +75,7 @@ from ..state.ball import (
 )
 from ..state.transitions import begin_rolling, take_off
 from ..trajectory import segment
-from ..trajectory.equations_of_motion import LEAST_SPEED, turning_surface
+from ..trajectory.equations_of_motion import LEAST_SPEED, surface_at_start, turning_surface
 
 LONGEST_SHOT = 300.0  # s
 # After so many segments of zero length in a row every second one lasts for a MOMENT. That grows,
@@ -267,8 +267,7 @@ def smooth_surface_segment(model: ModelRecord, ball: BallRecord, now: float) -> 
     """
     land = model.land
     ball['on_flat'] = 0
-    place, v = load(ball['position']), load(ball['velocity'])
-    surface = turning_surface(land, ball, place, v)
+    surface = surface_at_start(land, ball, now)
     store(ball['normal'], surface[1])
     update_material(land, ball)
     curved_segment(model, ball, now, surface)

@@ -51,11 +51,13 @@ MOST_GROWTH = 4.0  # from one step to the next
 STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
 # Along the ground, where a ball must be slow to stop, errors count more.
-ON_GROUND = 1.0 / 15.0  # of the tolerance
+ON_GROUND = 0.09  # of the tolerance
 MOST_ON_GROUND = 1e-3  # m
 # A rougher slide would err in energy by more than ground may give: see docs/stability.md.
 MOST_SLIDING = 2e-4  # m
 LEAST_LEFT = 0.1  # s
+# m: to such a tolerance RK4's steps along the ground are nearly as long, with two stages fewer
+ROUGH = 1e-3
 
 
 class DormandPrince(NamedTuple):
@@ -117,6 +119,11 @@ def _first_step(
         return min(far * most**0.2, method.longest), False
     part = short / STEP_SAFETY
     return min(short, method.longest), part * part * part * part <= most
+
+
+@runge_kutta.is_brief.register(DormandPrince)
+def _is_brief(method: DormandPrince, ball: BallRecord) -> bool:
+    return ball['phase'] != FLIGHT and method.tolerance >= ROUGH
 
 
 @runge_kutta.stands.register(DormandPrince)

@@ -20,7 +20,7 @@ from . import runge_kutta
 from ..kernel_types import BallRecord, ModelRecord
 from ..mechanics.vector import add_scaled, load, scale, store
 from ..state.ball import FLIGHT, STEP_END
-from ..trajectory.equations_of_motion import keep_surface, supporting_surface
+from ..trajectory.equations_of_motion import keep_surface, turning_surface
 from ..trajectory.segment import fit_segment
 
 
@@ -50,8 +50,7 @@ def _step(method: SemiImplicitEuler, model: ModelRecord, ball: BallRecord) -> No
     ball['ending'] = STEP_END
     if ball['phase'] != FLIGHT:
         end = add_scaled(load(ball['position']), h, v1)
-        distance, normal = supporting_surface(model.land, ball, end)
-        keep_surface(ball, distance, normal)
+        keep_surface(ball, turning_surface(model.land, ball, end, v1))
 
 
 METHOD = SemiImplicitEuler

@@ -69,6 +69,12 @@ def first_step(method: MethodRecord, speed: float, hop: float, most: float) -> t
 
 
 @generic
+def is_brief(method: MethodRecord, ball: BallRecord) -> bool:
+    """Whether a step that is not the first is brief: see `tableau`."""
+    return False
+
+
+@generic
 def stands(method: MethodRecord, h: float, error: float, most: float) -> bool:
     """Whether a step of `h` [s] with that `error` [m] is accepted at the tolerance `most`."""
     return True
@@ -230,8 +236,8 @@ def step_by(method: MethodRecord, model: ModelRecord, ball: BallRecord) -> None:
     """
     h = ball['step']
     begins = h == 0.0
-    brief = False
     most = allowed(method, ball)
+    brief = is_brief(method, ball)
     if begins:
         h, brief = first_step(method, airspeed(model, ball), hop(model, ball), most)
     rows = tableau(method, brief)

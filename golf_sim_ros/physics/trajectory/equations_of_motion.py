@@ -208,18 +208,41 @@ def turning_surface(
 
 
 @kernel
-def keep_surface(ball: BallRecord, distance: float, normal: Vector) -> None:
+def keep_surface(ball: BallRecord, surface: TurningSurface) -> None:
     """Keep what is under the ball at the latest stage, or at the segment's end. Writes stages."""
     row = ball['stages'][KEPT]
-    store(row[0:3], normal)
-    row[3] = distance
+    store(row[0:3], surface[1])
+    row[3] = surface[0]
+    store(row[4:7], surface[2])
+    row[7] = 0.0
 
 
 @kernel
-def kept_surface(ball: BallRecord) -> tuple[float, Vector]:
-    """`supporting_surface` that `keep_surface` has kept."""
+def kept_surface(ball: BallRecord) -> TurningSurface:
+    """`turning_surface` that `keep_surface` has kept."""
     row = ball['stages'][KEPT]
-    return row[3], load(row[0:3])
+    return row[3], load(row[0:3]), load(row[4:7])
+
+
+@kernel
+def go_on_from_kept(ball: BallRecord, now: float) -> None:
+    """Let the next segment begin, at `now`, with the surface that is kept. Writes stages."""
+    row = ball['stages'][KEPT]
+    row[7] = 1.0
+    row[8] = now
+
+
+@kernel
+def surface_at_start(land: SceneRecord, ball: BallRecord, now: float) -> TurningSurface:
+    """`turning_surface` under the ball: the one that is kept if it goes on from there.
+
+    Writes stages.
+    """
+    row = ball['stages'][KEPT]
+    if row[7] == 1.0 and row[8] == now:
+        row[7] = 0.0
+        return kept_surface(ball)
+    return turning_surface(land, ball, load(ball['position']), load(ball['velocity']))
 
 
 @kernel
@@ -228,7 +251,7 @@ def contact_rates(
 ) -> tuple[Vector, Vector, float, float, float]:
     """`rates_on` the surface that supports the ball, which is kept. Writes stages."""
     surface = turning_surface(land, ball, place, velocity)
-    keep_surface(ball, surface[0], surface[1])
+    keep_surface(ball, surface)
     return rates_on(land, ball, surface, (place, velocity, spin))
 
 
