@@ -146,13 +146,13 @@ def one_ball(player):
 
 
 def several_balls(player):
-    """Balls that hit each other on the green, and are struck while others move."""
+    """Balls that hit each other on the green, and are struck while others move, one away."""
     for ball, x in (('red', 36.0), ('green', 37.0), ('blue', 37.05)):
         player.place(ball, x, 0.01)
     player.strike('red', (4.0, 0.0, 0.0))
     player.rest()
-    for ball in ('red', 'green', 'blue'):
-        player.strike(ball, CHIP, BACKSPIN)
+    for ball, velocity in (('red', CHIP), ('green', CHIP), ('blue', IRON)):
+        player.strike(ball, velocity, BACKSPIN)
     player.rest()
 
 
