@@ -204,7 +204,7 @@ def lay(site: Site, balls: np.ndarray, number: int, ball: BallRecord, now: float
 
     Balls that sleep on it where it was wake up.
     """
-    wake_leaning(site, balls, number, now)
+    wake_sleepers_on(site, balls, number, now)
     if balls[number]['phase'] == HOLED:  # the next hole begins
         ball['strokes'] = 0
     balls[number] = ball
@@ -215,16 +215,16 @@ def lay(site: Site, balls: np.ndarray, number: int, ball: BallRecord, now: float
     laid['struck'], laid['struck_at'] = now, laid['position']
 
 
-def wake_leaning(site: Site, balls: np.ndarray, number: int, now: float) -> None:
+def wake_sleepers_on(site: Site, balls: np.ndarray, number: int, now: float) -> None:
     """Wake the balls that sleep on a ball which is taken away."""
     apart = np.linalg.norm(balls['position'] - balls['position'][number], axis=1)
-    leaning = (
+    sleepers = (
         (balls['phase'] == REST)
         & (balls['sleeps_on_ball'] != 0)
         & (apart <= 2.0 * (site.model.land.ball.radius + RESTING_GAP))
     )
-    leaning[number] = False
-    for other in np.flatnonzero(leaning):
+    sleepers[number] = False
+    for other in np.flatnonzero(sleepers):
         set_off(balls[other], now)
 
 

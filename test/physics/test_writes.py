@@ -40,7 +40,7 @@ WARM_START = ('stored_count', 'stored_partners', 'stored_impulses')
 MICRO_BOUNCES = ('micro_bounce_end', 'micro_bounce_load', 'micro_bounce_air')
 INTEGRATOR = ('step', 'stages', 'last_stage_time', 'evaluations')
 # fmt: off
-PILE = (
+STEPPING = (
     'time_stepping', 'still_steps', 'held_by', 'rolling_loss', 'contact_reach',
     'watches_neighbours', 'sleeps_on_ball', 'rapid_impacts', *WARM_START,
 )
@@ -57,7 +57,7 @@ GROUPS = {
     'segment': ('begin', 'end', 'ending', 'target', *CURVE),
     'integrator': INTEGRATOR,
     'micro_bounces': MICRO_BOUNCES,
-    'pile': PILE,
+    'stepping': STEPPING,
     'warm_start': WARM_START,
     'landing': LANDING,
     'shot': SHOT,

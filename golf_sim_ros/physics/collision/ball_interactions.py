@@ -88,7 +88,7 @@ def step_together(
 def wake(work: WorkRecord, balls: np.ndarray, radius: float, now: float) -> None:
     """Wake sleepers that touch involved balls; they wake others as they move.
 
-    Writes involved, phase, step, pile, moved_by_ball, struck_at.
+    Writes involved, phase, step, stepping, moved_by_ball, struck_at.
     """
 
 

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Time of impact of a ball's segment with the ground.
+"""Narrow phase of the ground: time of impact of a ball's segment with it.
 
 Parts of the ground are convex, or have concave regions of bounded curvature: conservative
 advancement along the segment never steps over a contact with one (see

@@ -44,8 +44,8 @@ def first_water_entry(waters: Waters, ball: BallRecord, until: float) -> tuple[f
     lowest, _ = extent_along(ball, 2)
     for i in range(len(waters.levels)):
         if lowest < waters.levels[i]:  # else its control points, and so the curve, are above
-            time, dips = water_entry_time(waters, i, ball, best)
-            if dips:
+            time, enters = water_entry_time(waters, i, ball, best)
+            if enters:
                 best = time
                 who = i + 1
     return best, who

@@ -22,9 +22,9 @@ from ..mechanics.vector import add, add_scaled, cross, dot, length, load, scale,
 from ..state.ball import ROLL, SLIDE
 from ..state.transitions import begin_rolling, begin_sliding, come_to_rest
 from ..trajectory.equations_of_motion import (
+    external_acceleration_at,
     LEAST_SPEED,
     material_under,
-    pull_at,
     resistance_holds,
     rolling_needs,
 )
@@ -67,9 +67,11 @@ def in_micro_bounces(ball: BallRecord, now: float) -> bool:
 
 
 @kernel
-def pull_on(land: SceneRecord, ball: BallRecord) -> Vector:
+def external_acceleration(land: SceneRecord, ball: BallRecord) -> Vector:
     """Acceleration of a ball in contact by its weight and by moving air."""
-    return pull_at(land, load(ball['position']), load(ball['velocity']), load(ball['spin']))
+    return external_acceleration_at(
+        land, load(ball['position']), load(ball['velocity']), load(ball['spin'])
+    )
 
 
 @kernel
@@ -82,7 +84,7 @@ def heading(land: SceneRecord, ball: BallRecord) -> Vector:
     if length(v) > 0.0:
         return unit(v, ZERO)
     normal = load(ball['normal'])
-    press, driven = surfaces.slope(pull_on(land, ball), normal)
+    press, driven = surfaces.slope(external_acceleration(land, ball), normal)
     if ball['phase'] == SLIDE:
         sliding = unit(slip(v, load(ball['spin']), normal, land.ball.radius), ZERO)
         driven = add_scaled(
@@ -132,7 +134,7 @@ def choose_contact_mode(land: SceneRecord, ball: BallRecord, now: float) -> None
     """
     normal = load(ball['normal'])
     material = material_under(land, ball)
-    press, downhill = surfaces.slope(pull_on(land, ball), normal)
+    press, downhill = surfaces.slope(external_acceleration(land, ball), normal)
     v = add_scaled(load(ball['velocity']), -dot(load(ball['velocity']), normal), normal)
     k = land.ball.inertia
     turning = dot(load(ball['spin']), normal)

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Sliding, rolling and pivoting on flat ground, in closed form (see coulomb_deceleration.py).
+"""Closed form of sliding and rolling, and of pivoting, on flat ground (coulomb_deceleration.py).
 
 With k the moment of inertia over m r^2 and N the press, slip u obeys
 u' = g_t - (1 + 1/k) mu N u/|u|, the velocity of rolling v' = g_t/(1 + k) - a v/|v|, and that of
@@ -147,13 +147,13 @@ def plane_segment(land: SceneRecord, ball: BallRecord, now: float) -> None:
     normal = load(ball['normal'])
     material = material_under(land, ball)
     press, downhill = surfaces.slope(gravity_at(land.effects, load(ball['position'])), normal)
-    tail = in_micro_bounces(ball, now)
+    micro_bouncing = in_micro_bounces(ball, now)
     pressing = press
-    if tail:
+    if micro_bouncing:
         pressing, downhill = micro_bounce_forces(ball, normal, press, downhill)
     k = land.ball.inertia
     v = load(ball['velocity'])
-    growing = 0.0 if tail else even_growth(land, ball, press, v)
+    growing = 0.0 if micro_bouncing else even_growth(land, ball, press, v)
     if ball['phase'] == SLIDE and growing > 0.0:
         downhill = add_scaled(downhill, -growing, unit(v, ZERO))
     drift = scale(1.0 / (1.0 + k), downhill)
@@ -167,7 +167,9 @@ def plane_segment(land: SceneRecord, ball: BallRecord, now: float) -> None:
         coast = (add_scaled(v, -k / (1.0 + k), u), drift, k / (1.0 + k))
     else:
         needed = rolling_needs(material, press, downhill, ZERO, k)
-        resistance = growing + (0.0 if tail else rolling_deceleration(material, press, needed))
+        resistance = growing + (
+            0.0 if micro_bouncing else rolling_deceleration(material, press, needed)
+        )
         motion = coulomb_deceleration.decelerated(v, drift, resistance, normal)
         coast = (ZERO, ZERO, 1.0)
     unwinding = material['pivot_friction'] * press / (k * land.ball.radius * land.ball.radius)
@@ -175,7 +177,7 @@ def plane_segment(land: SceneRecord, ball: BallRecord, now: float) -> None:
     horizon = LONGEST_SEGMENT
     if abs(turning) * land.ball.radius <= LEAST_SPEED:
         turning = 0.0
-    if tail:  # single impacts do not brake a pivoting ball, nor does their sum
+    if micro_bouncing:  # single impacts do not brake a pivoting ball, nor does their sum
         unwinding = 0.0
         horizon = min(horizon, ball['micro_bounce_end'] - now)
     if unwinding > 0.0 and turning != 0.0:
@@ -206,7 +208,7 @@ def allowed_error(land: SceneRecord, ball: BallRecord) -> float:
 
 
 @kernel
-def glide_end(motion: coulomb_deceleration.Braked, horizon: float) -> float:
+def glide_end(motion: coulomb_deceleration.CoulombMotion, horizon: float) -> float:
     """Parameter at the stop, if it comes within `horizon` [s], else at `horizon`."""
     if (
         coulomb_deceleration.stops(motion)
@@ -218,7 +220,7 @@ def glide_end(motion: coulomb_deceleration.Braked, horizon: float) -> float:
 
 @kernel
 def glide_at(
-    motion: coulomb_deceleration.Braked, coast: Coast, q: float
+    motion: coulomb_deceleration.CoulombMotion, coast: Coast, q: float
 ) -> tuple[float, Vector, Vector, Vector]:
     """Time, displacement, velocity and slip (or rolling velocity) at the parameter `q`."""
     time, u, way = coulomb_deceleration.after(motion, q)
@@ -230,7 +232,7 @@ def glide_at(
 
 @kernel
 def glide_error(
-    ball: BallRecord, motion: coulomb_deceleration.Braked, coast: Coast, q: float
+    ball: BallRecord, motion: coulomb_deceleration.CoulombMotion, coast: Coast, q: float
 ) -> float:
     """Distance of the segment's curve from the closed form at the parameter `q`."""
     time, way, _, _ = glide_at(motion, coast, q)
@@ -241,7 +243,7 @@ def glide_error(
 def fit_glide(
     land: SceneRecord,
     ball: BallRecord,
-    motion: coulomb_deceleration.Braked,
+    motion: coulomb_deceleration.CoulombMotion,
     coast: Coast,
     q: float,
     pivot: tuple[float, float],

@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Rolling on level ground whose resistance grows with speed, in closed form.
+"""Rolling on level ground whose rolling resistance grows with speed, in closed form.
 
 The ball rolls straight on, and v' = -(a + c v^2) is that of a falling body in quadratic drag,
 upwards: with an angle p, v = sqrt(a/c) tan p, which falls by sqrt(a c) a second, and the way is

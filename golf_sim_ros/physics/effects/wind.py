@@ -12,7 +12,7 @@
 # See the License for the specific language governing permissions and
 # limitations under the License.
 
-"""Wind that grows with height over the ground."""
+"""Wind that grows with height: logarithmic wind profile, power law, or the same everywhere."""
 
 from math import isfinite, log
 from typing import Iterable, NamedTuple, Sequence, Union
@@ -37,9 +37,9 @@ STEEP = 0.01  # m: the roughness of a profile that has none
 
 
 class LogProfile(NamedTuple):
-    """Logarithmic profile u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0).
+    """Logarithmic wind profile u = u10 ln(1 + h/z0) / ln(1 + 10 m/z0).
 
-    z0 is the `roughness` length [m].
+    z0 is the roughness length [m], the field ``roughness``.
     """
 
     roughness: float = 0.01

@@ -316,7 +316,7 @@ def flat_ground_goes_on(land: SceneRecord, ball: BallRecord) -> bool:
 def launch(model: ModelRecord, ball: BallRecord, now: float) -> None:
     """Choose whether a ball sets off in flight or along the ground.
 
-    Writes phase, step, material, velocity, spin, pile, water, micro_bounce_end.
+    Writes phase, step, material, velocity, spin, stepping, water, micro_bounce_end.
     """
     take_off(ball)
     ball['rapid_impacts'] = 0

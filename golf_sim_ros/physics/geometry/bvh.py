@@ -53,7 +53,7 @@ class LeafGrid(NamedTuple):
     nodes: int
 
 
-def hierarchy(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def build_bvh(low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Nodes of a BVH over the boxes from `low` to `high`, both (n, 3).
 
     Also the boxes' order, depth first. In that order a leaf holds ``first`` to ``last``, any other

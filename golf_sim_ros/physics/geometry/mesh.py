@@ -25,7 +25,7 @@ from typing import Mapping, NamedTuple, Sequence
 import numpy as np
 
 from . import surface_protocol
-from .bvh import BVH_NODE, hierarchy, leaf_grid, LeafGrid, leaves_between
+from .bvh import build_bvh, BVH_NODE, leaf_grid, LeafGrid, leaves_between
 from .plane_patch import FLUSH, meets, PLANE_ROUNDING, SAME_HEIGHT
 from ..jit import kernel
 from ..kernel_types import StructRecord, Vector
@@ -83,7 +83,7 @@ def meshes(shapes: Sequence[Mesh], material_number: Mapping[Material, int]) -> M
     for shape in shapes:
         corners = np.asarray(shape.vertices, float).reshape(-1, 3)[checked(shape)]
         a, b, c = corners.transpose(1, 0, 2)
-        tree, order = hierarchy(np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
+        tree, order = build_bvh(np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
         rows = _rows(corners[order], material_number[shape.material], shape.one_sided)
         leaves = np.flatnonzero(tree['last'] > tree['first'])
         rows['leaf'] = above + np.repeat(leaves, (tree['last'] - tree['first'])[leaves])

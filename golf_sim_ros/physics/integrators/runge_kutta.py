@@ -54,7 +54,7 @@ def error_weights(method: MethodRecord, brief: bool) -> np.ndarray:
 
 @generic
 def allowed(method: MethodRecord, ball: BallRecord) -> float:
-    """Tolerance [m] of a step of the ball."""
+    """Error tolerance [m] of a step of the ball."""
     return inf
 
 

@@ -14,7 +14,7 @@
 
 """Coulomb deceleration of a particle on a slope, in closed form: u' = G ex - a u/|u|.
 
-Sliding on a plane under friction and rolling under rolling resistance are both this. In parabolic
+The closed form of sliding and rolling is this, with friction and rolling resistance. In parabolic
 coordinates, u = (P^2 - Q^2) ex + 2 P Q ey with speed s = P^2 + Q^2, and with dt = s dq instead of
 time, the motion is linear: P' = -(a - G)/2 P, Q' = -(a + G)/2 Q. So speed, direction, time and
 displacement are sums of exponentials of q; q grows without bound as the particle stops, and the
@@ -38,7 +38,7 @@ FAR_TOO_LONG = 4.0  # ratio of times beyond which Newton's method is slow, and b
 EXACT = 1e-9
 
 
-class Braked(NamedTuple):
+class CoulombMotion(NamedTuple):
     """Initial state of a decelerated motion.
 
     Squares of P and Q, both unit vectors, slope G and brake a.
@@ -53,8 +53,8 @@ class Braked(NamedTuple):
 
 
 @kernel
-def decelerated(u: Vector, pull: Vector, brake: float, normal: Vector) -> Braked:
-    """`Braked` motion from velocity `u` [m/s] under `pull` [m/s^2] against `brake` [m/s^2].
+def decelerated(u: Vector, pull: Vector, brake: float, normal: Vector) -> CoulombMotion:
+    """`CoulombMotion` motion from velocity `u` [m/s] under `pull` [m/s^2] against `brake` [m/s^2].
 
     `u` and `pull` lie in the plane of `normal`. At rest it heads down the slope.
     """
@@ -74,7 +74,7 @@ def decelerated(u: Vector, pull: Vector, brake: float, normal: Vector) -> Braked
         pp = 0.25 * across * across / qq if qq > 0.0 else 0.0
     if dot(u, side) < 0.0:
         side = scale(-1.0, side)
-    return Braked(pp, qq, down, side, slope, brake)
+    return CoulombMotion(pp, qq, down, side, slope, brake)
 
 
 @kernel
@@ -100,13 +100,13 @@ def _shrunk(weight: float, rate: float, q: float) -> float:
 
 
 @kernel
-def starts_at_rest(motion: Braked) -> bool:
+def starts_at_rest(motion: CoulombMotion) -> bool:
     """Whether the particle is at rest at the start."""
     return motion.pp + motion.qq == 0.0
 
 
 @kernel
-def stops(motion: Braked) -> bool:
+def stops(motion: CoulombMotion) -> bool:
     """Whether the particle comes to a stop."""
     if starts_at_rest(motion):
         return False
@@ -116,7 +116,7 @@ def stops(motion: Braked) -> bool:
 
 
 @kernel
-def after(motion: Braked, q: float) -> tuple[float, Vector, Vector]:
+def after(motion: CoulombMotion, q: float) -> tuple[float, Vector, Vector]:
     """Time, velocity and displacement at the parameter `q`."""
     slower = motion.brake - motion.slope
     faster = motion.brake + motion.slope
@@ -139,7 +139,7 @@ def after(motion: Braked, q: float) -> tuple[float, Vector, Vector]:
 
 
 @kernel
-def rate(motion: Braked, velocity: Vector) -> Vector:
+def rate(motion: CoulombMotion, velocity: Vector) -> Vector:
     """Acceleration at `velocity`.
 
     At rest the limit with which the particle comes to rest or leaves it.
@@ -157,7 +157,7 @@ def rate(motion: Braked, velocity: Vector) -> Vector:
 
 
 @kernel
-def half_way(motion: Braked, q: float) -> float:
+def half_way(motion: CoulombMotion, q: float) -> float:
     """Parameter at about half the time to `q`, or, where that is infinite, at half the speed."""
     if q < inf:
         return 0.5 * q
@@ -170,7 +170,7 @@ def half_way(motion: Braked, q: float) -> float:
 
 
 @kernel
-def parameter_at(motion: Braked, time: float) -> float:
+def parameter_at(motion: CoulombMotion, time: float) -> float:
     """Parameter q at `time` [s], which must lie before the stop.
 
     Newton's method, safeguarded by a bracket. From far beyond, where time grows exponentially, it

@@ -50,7 +50,7 @@ def slip(velocity: Vector, spin: Vector, normal: Vector, radius: float) -> Vecto
 
 @kernel
 def friction(bond: ContactProperties, strength: float, sliding: Vector) -> Vector:
-    """Tangential impulse [N s] against the slip `sliding`.
+    """Coulomb friction: tangential impulse [N s] against the slip `sliding`.
 
     `strength` [N s] is the normal impulse.
     """

@@ -171,9 +171,10 @@ def gap_rate(balls: np.ndarray, i: int, j: int, now: float) -> float:
 
 @shared
 def correct_positions(balls: np.ndarray, work: WorkRecord) -> None:
-    """Correct penetration by moving balls apart, without changing velocities.
+    """Penetration correction: move balls apart, without changing velocities.
 
-    Split impulses: stabilisation that adds no energy. Writes position, position_change.
+    Position correction by split impulses adds no energy, as Baumgarte's would. Writes position,
+    position_change.
     """
     for k in range(work.counts[INVOLVED]):
         store(work.solver.position_change[work.involved[k]], ZERO)

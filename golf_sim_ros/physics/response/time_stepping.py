@@ -84,7 +84,7 @@ def is_step_time(now: float) -> bool:
 def begin_time_stepping(ball: BallRecord) -> None:
     """Switch a ball from events to time stepping.
 
-    Writes phase, pile, step, moved_by_ball, struck_at.
+    Writes phase, stepping, step, moved_by_ball, struck_at.
     """
     mark_moved_by_ball(ball)
     ball['sleeps_on_ball'] = 0
@@ -219,7 +219,7 @@ def collect_resting_contacts(
 ) -> None:
     """Collect the contacts of the involved balls within reach; sleepers that they push join.
 
-    Writes contacts, involved, neighbours, solved_motion, pile, phase, step, struck_at,
+    Writes contacts, involved, neighbours, solved_motion, stepping, phase, step, struck_at,
     moved_by_ball.
     """
     reach = contact_reach(work)
@@ -254,7 +254,7 @@ def collect_resting_contacts(
 def choose_after_step(land: SceneRecord, ball: BallRecord, now: float, work: WorkRecord) -> None:
     """Choose after a time step whether a ball sleeps, slides, flies, or stays time-stepped.
 
-    Writes motion, phase, step, material, pile, asleep.
+    Writes motion, phase, step, material, stepping, asleep.
     """
     speed = length(load(ball['velocity']))
     left = max(speed - ball['rolling_loss'], 0.0)

@@ -56,7 +56,7 @@ def resolve_water_impact(
     """Resolve the impact of ball `number` with water, ricochet or entry, and log it.
 
     A ball that enters shares its momentum with its added mass. Writes water, velocity, spin,
-    contact, step, pile, landing, bounces.
+    contact, step, stepping, landing, bounces.
     """
     record_landing(ball, now)
     velocity = load(ball['velocity'])

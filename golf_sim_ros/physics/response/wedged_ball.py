@@ -71,7 +71,7 @@ def step_wedged(
     """Solve the contacts of the wedged ball `i` at a time step's end.
 
     A ball with one support left, or none, is no longer wedged. Writes motion, phase, contact,
-    integrator, pile, contacts, solved_motion, position_change.
+    integrator, stepping, contacts, solved_motion, position_change.
     """
     ball = balls[i]
     store(work.solver.solved_motion[i, 0:3], load(ball['velocity']))

@@ -57,9 +57,9 @@ class Nothing(NamedTuple):
 class Limits(NamedTuple):
     """Limits of accuracy.
 
-    ``settle`` [m/s]: bounces of slower rebound are summed in closed form, as micro-bounces,
-    instead of followed one by one; ``path`` [m]: how far a segment's curve may lie from a closed
-    form or off the ground.
+    ``settle`` [m/s], the restitution threshold: bounces of slower rebound are summed in closed
+    form, as micro-bounces, instead of followed one by one; ``path`` [m]: how far a segment's curve
+    may lie from a closed form or off the ground.
     """
 
     settle: float

@@ -177,7 +177,9 @@ def micro_bounce_forces(
 
 
 @kernel
-def pull_at(land: SceneRecord, place: Vector, velocity: Vector, spin: Vector) -> Vector:
+def external_acceleration_at(
+    land: SceneRecord, place: Vector, velocity: Vector, spin: Vector
+) -> Vector:
     """Acceleration of a ball in contact by its weight and by moving air."""
     return add(
         gravity_at(land.effects, place), moving_air(land.air, land.ground, place, velocity, spin)
@@ -302,24 +304,28 @@ def rates_on(
     place, velocity, spin = motion
     _, normal, turn = surface
     # Micro-bounces have the force of all air already.
-    tail = ball['micro_bounce_end'] > ball['begin']
-    pull = gravity_at(land.effects, place) if tail else pull_at(land, place, velocity, spin)
-    press, downhill = surfaces.slope(pull, normal)
+    micro_bouncing = ball['micro_bounce_end'] > ball['begin']
+    external = (
+        gravity_at(land.effects, place)
+        if micro_bouncing
+        else external_acceleration_at(land, place, velocity, spin)
+    )
+    press, downhill = surfaces.slope(external, normal)
     material = material_under(land, ball)
     pressing = press - dot(velocity, turn)
     press = max(pressing, 0.0)
     about = dot(spin, normal)
     # Single impacts do not brake a rolling ball, so neither do micro-bounces.
-    load = press
-    if tail:
-        load, downhill = micro_bounce_forces(ball, normal, press, downhill)
+    pressed = press
+    if micro_bouncing:
+        pressed, downhill = micro_bounce_forces(ball, normal, press, downhill)
     free = scale(1.0 / (1.0 + k), add_scaled(downhill, k * r * about, cross(normal, turn)))
-    growing = 0.0 if tail else growth_rate(material, press) * length(velocity)
+    growing = 0.0 if micro_bouncing else growth_rate(material, press) * length(velocity)
     turning = sub(free, downhill)
     if growing > 0.0:
         turning = add_scaled(turning, growing_needs(material, press, velocity, k), velocity)
     needed = length(turning)
-    resistance = 0.0 if tail else rolling_deceleration(material, press, needed)
+    resistance = 0.0 if micro_bouncing else rolling_deceleration(material, press, needed)
     downhill = add_scaled(downhill, -(1.0 + k) * growing, velocity)
     speed = length(velocity)
     time = inf
@@ -340,13 +346,13 @@ def rates_on(
         against = scale(-1.0, slip(velocity, spin, normal, r))
         if length(against) <= LEAST_SPEED:
             against = friction
-        friction = scale(material['dynamic_friction'] * load, unit(against, ZERO))
+        friction = scale(material['dynamic_friction'] * pressed, unit(against, ZERO))
     force = add_scaled(add(downhill, friction), -dot(velocity, turn), normal)
     torque = scale(-1.0 / (k * r), cross(normal, friction))
     # no slip: the spin follows the velocity, which resistance brakes, too
     if ball['phase'] == ROLL:
         torque = add_scaled(scale(1.0 / r, cross(normal, force)), about, turn)
-    if material['pivot_friction'] > 0.0 and not tail:
+    if material['pivot_friction'] > 0.0 and not micro_bouncing:
         torque = add_scaled(
             torque, -pivoting(ball, material, press, dot(spin, turn), r, k), normal
         )
