@@ -124,8 +124,8 @@ def add_grain(physics):
             block('        if not is_in_still_air'),
         ),
         (
-            'import LEAST_SPEED, turning_surface',
-            'import LEAST_SPEED, material_under, turning_surface',
+            'import LEAST_SPEED, surface_at_start, turning_surface',
+            'import LEAST_SPEED, material_under, surface_at_start, turning_surface',
         ),
     )
 

@@ -51,7 +51,7 @@ MOST_GROWTH = 4.0  # from one step to the next
 STEP_SAFETY = 0.9  # s
 LANDED = 0.65  # of the tolerance: hops multiply the errors of those before them
 # Along the ground, where a ball must be slow to stop, errors count more.
-ON_GROUND = 0.09  # of the tolerance
+ON_GROUND = 0.08  # of the tolerance
 MOST_ON_GROUND = 1e-3  # m
 # A rougher slide would err in energy by more than ground may give: see docs/stability.md.
 MOST_SLIDING = 2e-4  # m
