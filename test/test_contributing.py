@@ -112,9 +112,13 @@ def add_grain(physics):
             '<= rolling_deceleration(material, press, needed, downhill)',
         ),
         (
-            '    resistance = 0.0 if tail else rolling_deceleration(material, press, needed)',
+            '0.0 if micro_bouncing else rolling_deceleration(material, press, needed)',
+            '0.0 if micro_bouncing else rolling_deceleration(material, press, needed, way)',
+        ),
+        (
+            '    resistance = 0.0 if micro_bouncing',
             '    way = velocity if length(velocity) > LEAST_SPEED else free\n'
-            '    resistance = 0.0 if tail else rolling_deceleration(material, press, needed, way)',
+            '    resistance = 0.0 if micro_bouncing',
         ),
     )
     change(
