@@ -464,3 +464,15 @@ def test_a_broken_file_of_heights_is_refused_in_one_line(tmp_path, content, said
     with pytest.raises(CourseError) as error:
         load_course(path)
     assert said in str(error.value) and '\n' not in str(error.value)
+
+
+def test_a_ball_that_slides_down_a_steep_map_is_not_lost_in_small_steps():
+    # Noise of the map's curvature made steps of 10 us at `reference`, until the shot failed.
+    heights = np.zeros((5, 5))
+    heights[2, 2], heights[2, 4] = 0.375, 0.25
+    smooth = Material('smooth', Restitution(0.0), 0.0, 0.0, 0.0, 1.0, 0.0)
+    course = Course((Plane((0, 0, -1)), Heightmap(heights, (-1.0, -1.0), 0.5, smooth)))
+    world = World(course, effects=GRAVITY, accuracy='reference')
+    world.place('ball', (0.9, 0.0, 1.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    world.advance(0.6)
+    assert world['ball'].position[0] < 0.6

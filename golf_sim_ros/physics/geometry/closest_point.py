@@ -30,8 +30,9 @@ CONVERGED_STEP = 1e-13  # of the spacing: shorter steps change nothing
 # Of the spacing: shorter steps are taken without line search, whose test would be rounding.
 SURE = 1e-6
 # Of the spacing: after such a step the next would be rounding, for each errs by the last one's
-# square, and so would what Taylor's formula leaves out of the height and the slopes.
-LAST = 1e-6
+# square, and so would what Taylor's formula leaves out of the height and the slopes. The second
+# derivatives stay as they were: after a longer step a step's error estimate would be noise.
+LAST = 1e-8
 # Of the spacing: what is so near a look in the same cell tells as well as another look would, to
 # 1e-10 of the curvature times the spacing.
 CLOSE = 1e-2
