@@ -39,7 +39,7 @@ TRUTH = Preset(
 # tolerance [m]; bounces from MOST_SETTLE on are always followed one by one.
 PATH = 10.0**-3.5, 0.65
 SETTLE = 10.0**0.24, 0.324
-MOST_SETTLE = 0.1  # m/s
+MOST_SETTLE = 0.5  # m/s
 NOT_PLAYED = ((np.nan, np.nan, np.nan),)
 
 

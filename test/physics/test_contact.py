@@ -91,6 +91,9 @@ def test_a_dropped_ball_rises_to_e2_of_its_height_each_time(accuracy):
     for bounce in range(1, 12):
         height = oracles.height_after(2, 0.7, bounce)
         up = sqrt(2 * height / G)
+        if up * G < ACCURACY[accuracy].limits.settle:  # this one and the rest are summed
+            assert bounce > 6
+            break
         assert events[-1].time == pytest.approx(time, abs=EXACT)
         assert events[-1].velocity_after[2] == pytest.approx(sqrt(2 * G * height), abs=EXACT)
         world.advance(time + up - world.time)
