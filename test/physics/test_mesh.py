@@ -21,12 +21,24 @@ from math import cos, hypot, sin
 import os
 
 from driving_range import as_on_relief, GRAVITY, HARD
-from golf_sim_ros.physics import Course, ground_height, Material, Mesh, Patch, Phase, Plane, World
+from golf_sim_ros.physics import (
+    Course,
+    ground_height,
+    Material,
+    Mesh,
+    Patch,
+    Phase,
+    Plane,
+    Shot,
+    simulate,
+    World,
+)
 from golf_sim_ros.physics.geometry import surface_protocol
 from golf_sim_ros.physics.geometry.mesh import meshes
 from golf_sim_ros.physics.geometry.surfaces import look_down
 from golf_sim_ros.physics.jit import entry
 from golf_sim_ros.physics.scene import kernel_model
+from golf_sim_ros.study.scenes import hills
 import numpy as np
 from oracles import RADIUS
 import pytest
@@ -275,6 +287,14 @@ def test_no_shot_passes_a_single_sheet(crumpled):
             assert z > look_down(ground, x, y)[0], (place, velocity)
 
 
+@pytest.mark.parametrize('aside', np.linspace(-0.1, 0.1, 5))
+def test_a_ball_that_flies_in_from_beneath_a_facets_plane_lands_on_it(aside):
+    # On hills the plane of a facet further on lies over the ball at first.
+    chip = np.array((10.4 * cos(aside), 10.4 * sin(aside), 6.0))
+    told = simulate(hills(20_000), Shot(tuple(chip)))
+    assert told.result.status == 'at_rest'
+
+
 def test_a_one_sided_mesh_is_passed_from_behind_only():
     vertices, faces = [(-1, -1, 0), (1, -1, 0), (0, 1, 0)], [(0, 1, 2)]
     for from_above, stopped in ((True, True), (False, False)):
@@ -310,6 +330,38 @@ def parts_within(kind, low, high, most):
     return surface_protocol.parts_within(kind, low, high, most)
 
 
+def may_meet(corners, middle, half):
+    """Whether a triangle meets a cube as seen along the axes and along its sides' normals.
+
+    Those lie in its plane.
+    """
+    sides = np.roll(corners, -1, 0) - corners
+    for axis in (*np.eye(3), *np.cross(np.cross(sides[0], sides[1]), sides)):
+        seen, reach = (corners - middle) @ axis, half * np.abs(axis).sum()
+        if seen.min() > reach or seen.max() < -reach:
+            return False
+    return True
+
+
+def test_no_triangle_that_meets_a_box_is_passed_over():
+    rng = np.random.default_rng(8)
+    corners = rng.uniform(-1, 1, (200, 3, 3))
+    kind = meshes([Mesh(corners.reshape(-1, 3), np.arange(600).reshape(-1, 3))], {Material(): 0})
+    shares = rng.dirichlet((1, 1, 1), 2000)
+    passed_over = 0
+    for k, triangle in enumerate(kind.triangles['corners']):
+        inside = shares @ triangle
+        for _ in range(20):
+            middle, half = rng.uniform(-1, 1, 3), 0.3 * rng.uniform()
+            low, high = middle - half, middle + half
+            near = next_part(kind, k, tuple(low), tuple(high)) == k
+            assert near or not ((low <= inside) & (inside <= high)).all(1).any()
+            passed_over += (
+                not near and ((triangle.min(0) <= high) & (triangle.max(0) >= low)).all()
+            )
+    assert passed_over > 100
+
+
 @pytest.mark.parametrize('size', [1.0, 0.03])
 @pytest.mark.parametrize('count', [1, 2, 4, 5, 9, 300])
 def test_the_hierarchy_finds_what_brute_force_finds(count, size):
@@ -328,7 +380,7 @@ def test_the_hierarchy_finds_what_brute_force_finds(count, size):
     for _ in range(40):
         middle, half = count + rng.uniform(-1, 1, 3), rng.choice([0.05, 0.5]) * rng.uniform()
         low, high = tuple(middle - half), tuple(middle + half)
-        met = ((corners.min(1) <= high) & (corners.max(1) >= low)).all(1)
+        met = np.array([may_meet(triangle, middle, half) for triangle in corners])
         found, part = [], next_part(kind, 0, low, high)
         while part < len(corners):
             found.append(part)

@@ -30,7 +30,6 @@ from .conservative_advancement import (
     advancement_bound,
     is_long,
     MOST_ADVANCES,
-    NEVER,
     PLAIN_APPROACH,
     RISING,
     SHORT_BOX,
@@ -41,10 +40,11 @@ from .conservative_advancement import (
 from .relief_clearance import LOOK, time_near_relief
 from ..geometry import surfaces
 from ..geometry.plane_patch import FLUSH
+from ..geometry.surface_protocol import FACE_FORM, PLANE_FORM, RELIEF_FORM
 from ..geometry.surfaces import Ground
 from ..jit import kernel, shared
 from ..kernel_types import BallRecord, Box, Heights, Vector
-from ..mechanics.vector import add_scaled, dot, length, load, ZERO
+from ..mechanics.vector import add_scaled, dot, length, load
 from ..state.ball import NO_PART
 from ..trajectory.segment import (
     acceleration_bounds,
@@ -70,7 +70,6 @@ MANY_STEPS = 100
 FEW_STEPS = 4
 MANY_PARTS = 8  # parts in a swept box that make it worth halving the stretch
 LEAST_EDGE_TIME = 1e-7  # s: a ball that leaves an edge sooner counts as having left it
-NO_HEIGHTS = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 LEAST_HOLLOW = 1e-12  # 1/m: less is none
 
 # Begin and end of a stretch of time, the box that a ball sweeps in it, and of the parts in that
@@ -237,6 +236,16 @@ def touch(
     return time, OPEN
 
 
+@kernel
+def is_sure_impact(
+    ground: Ground, part: int, ball: BallRecord, radius: float, rate: float, time: float
+) -> bool:
+    """Whether a ball that nears `part` at that `rate`, and touches it at that time, hits it."""
+    return rate < -PLAIN_APPROACH and surfaces.touchable_within(
+        ground, part, position(ball, time), 2.0 * radius
+    )
+
+
 @shared
 def relief_impact_time(
     ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
@@ -271,13 +280,71 @@ def relief_impact_time(
                 continue
         sure = advancement_over_hollows(hollow, distance, gap, rate, bend, fastest)
         time += sure
-        if (
-            bent * sure * sure < TOUCH
-            and rate < -PLAIN_APPROACH
-            and time < until
-            and surfaces.touchable_within(ground, part, position(ball, time), 2.0 * radius)
-        ):
-            return time, True
+        if time < until and bent * sure * sure < TOUCH:
+            # Another advance would change less than TOUCH: the gap is within bent s^2 / 2 of zero.
+            if is_sure_impact(ground, part, ball, radius, rate, time):
+                return time, True
+    return time, False
+
+
+@kernel
+def time_near_face(
+    ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
+) -> float:
+    """Time, from `begin` up to `until`, before which the ball does not reach the plane of a face.
+
+    It is `begin` where the ball starts within that plane.
+    """
+    distance, normal = surfaces.face_plane(ground, part, control_point(ball, 0))
+    if distance < radius - TOUCH:
+        return begin
+    over = plane_gap_coefficients(ball, normal, distance - radius)
+    if min(over) > TOUCH:  # a Bezier curve stays between its control points
+        return until
+    falls, _ = acceleration_bounds(over, ball['span'])
+    time = begin
+    for _ in range(MOST_ADVANCES):
+        gap, rate = plane_gap(over, ball['span'], time)
+        if gap < -TOUCH or gap <= TOUCH and rate <= TANGENTIAL:  # beyond it, or at it
+            break
+        time += advancement_bound(gap, rate, falls)
+        if time >= until:
+            return until
+    return time
+
+
+@shared
+def plane_impact_time(
+    ground: Ground, part: int, ball: BallRecord, radius: float, begin: float, until: float
+) -> tuple[float, bool]:
+    """`time_of_impact` with a part whose nearest point has one normal along the whole segment.
+
+    Writes segments_spent.
+    """
+    cost = LOOK * surfaces.effort(ground, part)
+    span = ball['span']
+    over, falls, rises, normal = plane_gap_bounds(ground, part, ball, radius)
+    time = begin
+    for _ in range(MOST_ADVANCES):
+        ball['segments_spent'] += cost
+        gap, rate = plane_gap(over, span, time)
+        if gap <= TOUCH:
+            facing = Facing(gap + radius, normal, gap, rate, falls, 0.0)
+            time, what = touch(ground, part, ball, radius, (time, until), facing)
+            if what == HIT:
+                return time, True
+            if what == CLEAR:
+                if time >= until:
+                    return until, False
+                continue
+        sure = advancement_bound(gap, rate, falls)
+        time += sure
+        if time >= until:
+            return until, False
+        if max(falls, rises) * sure * sure < TOUCH:
+            # Another advance would change less than TOUCH: the gap is within that of zero by now.
+            if is_sure_impact(ground, part, ball, radius, rate, time):
+                return time, True
     return time, False
 
 
@@ -289,30 +356,23 @@ def time_of_impact(
 
     Writes segments_spent.
     """
-    if surfaces.relief(ground, part)[0] > 0.0:
+    form = surfaces.form(ground, part)
+    if form == RELIEF_FORM:
         return relief_impact_time(ground, part, ball, radius, begin, until)
+    if form == PLANE_FORM:
+        return plane_impact_time(ground, part, ball, radius, begin, until)
+    time = time_near_face(ground, part, ball, radius, begin, until) if form == FACE_FORM else begin
+    if time >= until:
+        return until, False
     cost = LOOK * surfaces.effort(ground, part)
     hollow = surfaces.hollow(ground, part)
     fastest = greatest_speed(ball) if hollow > 0.0 else 0.0
-    span = ball['span']
-    level = surfaces.is_plane(ground, part)
-    rises = NEVER
-    distance, normal = 0.0, ZERO
-    if level:
-        over, bend, rises, normal = plane_gap_bounds(ground, part, ball, radius)
-    else:
-        over = NO_HEIGHTS
-        bend = greatest_acceleration(ball)
-    time = begin
+    bend = greatest_acceleration(ball)
     for step in range(MOST_ADVANCES):
         ball['segments_spent'] += cost
-        if level:
-            gap, rate = plane_gap(over, span, time)
-            distance = gap + radius
-        else:
-            distance, normal = surfaces.nearest(ground, part, position(ball, time))
-            gap = distance - radius
-            rate = dot(normal, velocity(ball, time))
+        distance, normal = surfaces.nearest(ground, part, position(ball, time))
+        gap = distance - radius
+        rate = dot(normal, velocity(ball, time))
         if gap <= TOUCH:
             facing = Facing(distance, normal, gap, rate, bend, hollow)
             time, what = touch(ground, part, ball, radius, (time, until), facing)
@@ -327,21 +387,10 @@ def time_of_impact(
             if step > MANY_STEPS:  # a slow ball on a segment at whose end it is fast
                 sure = max(sure, advancement_bound(gap, -length(velocity(ball, time)), bend))
             time += sure
+        elif step == FEW_STEPS and sees_one_normal(ground, part, ball, normal):
+            return plane_impact_time(ground, part, ball, radius, time, until)
         else:
-            if step == FEW_STEPS and not level and sees_one_normal(ground, part, ball, normal):
-                level = True
-                over, bend, rises, normal = plane_gap_bounds(ground, part, ball, radius)
-            sure = advancement_bound(gap, rate, bend)
-            time += sure
-            if (
-                max(bend, rises) * sure * sure < TOUCH
-                and rate < -PLAIN_APPROACH
-                and time < until
-                and surfaces.touchable_within(ground, part, position(ball, time), 2.0 * radius)
-            ):
-                # Another advance would change less than TOUCH: the gap is within bend s^2 / 2 of
-                # zero by now.
-                return time, True
+            time += advancement_bound(gap, rate, bend)
         if time >= until:
             return until, False
     return time, False
@@ -424,7 +473,7 @@ def is_ignored(
     """Whether `part` is no obstacle, since the ball is in lasting contact with it: `on`."""
     if on == ON_FLAT:
         foot = add_scaled(load(ball['position']), -radius, load(ball['normal']))
-        return surfaces.in_plane(ground, part, foot, load(ball['normal']))
+        return surfaces.is_below_plane(ground, part, foot, load(ball['normal']))
     if on == WEDGED:
         return holds_wedged(ground, part, ball, radius)
     if on == ON_CURVE:

@@ -177,6 +177,8 @@ def step_share_on_ground(land: SceneRecord, ball: BallRecord) -> float:
     interpolates position, velocity and acceleration at both ends (quintic Hermite), so its error
     goes with the step's sixth power.
     """
+    if ball['on_flat'] == 1:  # a step does not leave a plane
+        return inf
     off = off_ground(land, ball, 0.5)
     # On a smooth surface the curve is off most near its middle.
     if off > UNTOLD * land.limits.path or not surfaces.goes_on(

@@ -328,8 +328,8 @@ def _flat_under(kind: Cups, part: int, point: Vector) -> bool:
     return part % 2 == 1 and away <= cup['radius'] + PLANE_ROUNDING
 
 
-@surface_protocol.in_plane.register(Cups)
-def _in_plane(kind: Cups, part: int, point: Vector, normal: Vector) -> bool:
+@surface_protocol.is_below_plane.register(Cups)
+def _is_below_plane(kind: Cups, part: int, point: Vector, normal: Vector) -> bool:
     cup = kind.cups[part // 2]
     if part % 2 == 1:
         return abs(normal[2]) > 1.0 - 1e-12 and abs(point[2] - cup['bottom']) <= SAME_HEIGHT

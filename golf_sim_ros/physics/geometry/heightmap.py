@@ -491,6 +491,12 @@ def _hollow_around(kind: Maps, part: int, point: Vector, reach: float) -> float:
     return greatest
 
 
+@surface_protocol.form.register(Maps)
+def _form(kind: Maps, part: int) -> int:
+    whole = part == kind.grids[grid_of(kind, part)]['number']
+    return surface_protocol.RELIEF_FORM if whole else surface_protocol.ANY_FORM
+
+
 @surface_protocol.relief.register(Maps)
 def _relief(kind: Maps, part: int) -> tuple[float, float]:
     grid = kind.grids[grid_of(kind, part)]

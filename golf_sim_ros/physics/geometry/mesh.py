@@ -191,12 +191,26 @@ def _parts_within(kind: Meshes, low: Vector, high: Vector, most: int) -> tuple[i
 
 @kernel
 def is_near(triangle: StructRecord, low: Vector, high: Vector) -> bool:
-    """Whether the triangle's box overlaps the box from `low` to `high`."""
+    """Whether the triangle may overlap the box from `low` to `high`.
+
+    Neither an axis of the box separates them nor a normal of a side, in the triangle's plane.
+    """
     for axis in range(3):
         a = triangle['corners'][0, axis]
         b = triangle['corners'][1, axis]
         c = triangle['corners'][2, axis]
         if low[axis] > max(a, b, c) or high[axis] < min(a, b, c):
+            return False
+    for i in range(3):
+        inward = triangle['inward'][i]
+        corner = triangle['corners'][i]
+        room = margin = 0.0  # of the box's innermost corner, times the side's length
+        for axis in range(3):
+            furthest = high[axis] if inward[axis] > 0.0 else low[axis]
+            if inward[axis] != 0.0:
+                room += inward[axis] * (furthest - corner[axis])
+            margin += abs(inward[axis])
+        if room < -FLUSH * margin:
             return False
     return True
 
@@ -293,18 +307,30 @@ def is_over_triangle(triangle: StructRecord, point: Vector) -> bool:
     return where == TRIANGLE_FACE or beside_triangle(triangle, point, offset) <= PLANE_ROUNDING
 
 
-@surface_protocol.in_plane.register(Meshes)
-def _in_plane(kind: Meshes, part: int, point: Vector, normal: Vector) -> bool:
+@surface_protocol.is_below_plane.register(Meshes)
+def _is_below_plane(kind: Meshes, part: int, point: Vector, normal: Vector) -> bool:
     triangle = kind.triangles[part]
     if (
         abs(dot(load(triangle['normal']), normal)) > 1.0 - 1e-12
         and abs(height_over(triangle, point)) <= SAME_HEIGHT
     ):
         return True
-    for i in range(3):  # a sliver's normal may be inexact while its corners lie in the plane
-        if abs(dot(sub(load(triangle['corners'][i]), point), normal)) > PLANE_ROUNDING:
+    for i in range(3):
+        if dot(sub(load(triangle['corners'][i]), point), normal) > PLANE_ROUNDING:
             return False
     return True
+
+
+@surface_protocol.form.register(Meshes)
+def _form(kind: Meshes, part: int) -> int:
+    return surface_protocol.FACE_FORM
+
+
+@surface_protocol.face_plane.register(Meshes)
+def _face_plane(kind: Meshes, part: int, point: Vector) -> tuple[float, Vector]:
+    h = height_over(kind.triangles[part], point)
+    normal = load(kind.triangles[part]['normal'])
+    return abs(h), normal if h >= 0.0 else scale(-1.0, normal)
 
 
 @surface_protocol.limits.register(Meshes)

@@ -336,20 +336,28 @@ def _flat_under(kind: Flats, part: int, point: Vector) -> bool:
     )
 
 
-@surface_protocol.is_plane.register(Flats)
-def _is_plane(kind: Flats, part: int) -> bool:
-    return part < len(kind.faces) and kind.faces[part]['solid'] != 0
+@surface_protocol.form.register(Flats)
+def _form(kind: Flats, part: int) -> int:
+    if part < len(kind.faces) and kind.faces[part]['solid']:
+        return surface_protocol.PLANE_FORM
+    return surface_protocol.ANY_FORM
 
 
-@surface_protocol.in_plane.register(Flats)
-def _in_plane(kind: Flats, part: int, point: Vector, normal: Vector) -> bool:
+@surface_protocol.is_below_plane.register(Flats)
+def _is_below_plane(kind: Flats, part: int, point: Vector, normal: Vector) -> bool:
     if part < len(kind.faces):
-        place = load(kind.faces[part]['center'])
-        own = load(kind.faces[part]['normal'])
+        face = kind.faces[part]
+        own = load(face['normal'])
+        d = sub(load(face['center']), point)
+        if not face['solid']:
+            rise = face['half_length'] * abs(dot(load(face['along']), normal))
+            rise += face['half_width'] * abs(dot(load(face['across']), normal))
+            if dot(d, normal) + rise <= PLANE_ROUNDING:
+                return True
     else:
-        place = load(kind.edges[part - len(kind.faces)]['start'])
         own = load(kind.edges[part - len(kind.faces)]['normal'])
-    return abs(dot(own, normal)) > 1.0 - 1e-12 and abs(dot(sub(point, place), own)) <= SAME_HEIGHT
+        d = sub(load(kind.edges[part - len(kind.faces)]['start']), point)
+    return abs(dot(own, normal)) > 1.0 - 1e-12 and abs(dot(d, own)) <= SAME_HEIGHT
 
 
 @surface_protocol.material_of.register(Flats)

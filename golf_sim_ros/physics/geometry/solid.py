@@ -227,8 +227,8 @@ def _flat_under(kind: Solids, part: int, point: Vector) -> bool:
     return not solid['is_sphere'] and over > 0.0 and away <= solid['radius'] + PLANE_ROUNDING
 
 
-@surface_protocol.in_plane.register(Solids)
-def _in_plane(kind: Solids, part: int, point: Vector, normal: Vector) -> bool:
+@surface_protocol.is_below_plane.register(Solids)
+def _is_below_plane(kind: Solids, part: int, point: Vector, normal: Vector) -> bool:
     solid = kind.solids[part]
     top = solid['center'][2] + solid['height']
     return (

@@ -24,6 +24,9 @@ from ..kernel_types import KindRecord, Vector
 from ..mechanics.vector import add_scaled, length, scale, sub, ZERO
 
 NOTHING = (-1e300, -1)
+# Forms of a part: an endless plane, solid below; a flat face of limited size, with a `face_plane`;
+# a smooth surface over all of the plan, with a `relief`.
+ANY_FORM, PLANE_FORM, FACE_FORM, RELIEF_FORM = range(4)
 GROUND_SORT, CUP_SORT, FLAGSTICK_SORT, OBSTACLE_SORT = range(4)
 
 
@@ -106,8 +109,14 @@ def hollow_around(kind: KindRecord, part: int, point: Vector, reach: float) -> f
 
 
 @generic
+def form(kind: KindRecord, part: int) -> int:
+    """Form of `part`: ANY_FORM, or one to which the time of impact is found faster."""
+    return ANY_FORM
+
+
+@generic
 def relief(kind: KindRecord, part: int) -> tuple[float, float]:
-    """Bounds where `part` is a smooth surface over all of the plan, else zeros.
+    """Bounds of a `part` of RELIEF_FORM; else zeros.
 
     The greatest length of its upward normal (-dz/dx, -dz/dy, 1), and the greatest second
     derivative [1/m] of its height in any direction.
@@ -119,7 +128,7 @@ def relief(kind: KindRecord, part: int) -> tuple[float, float]:
 def height_above(
     kind: KindRecord, part: int, point: Vector, velocity: Vector
 ) -> tuple[float, float]:
-    """Height [m] of `point` straight over `part`, which has a `relief`, and its rate [m/s]."""
+    """Height [m] of `point` straight over a `part` of RELIEF_FORM, and its rate [m/s]."""
     return 1e300, 0.0
 
 
@@ -160,15 +169,21 @@ def flat_under(kind: KindRecord, part: int, point: Vector) -> bool:
 
 
 @generic
-def in_plane(kind: KindRecord, part: int, point: Vector, normal: Vector) -> bool:
-    """Whether `part` belongs to the plane through `point` with `normal`, as surface or edge."""
+def is_below_plane(kind: KindRecord, part: int, point: Vector, normal: Vector) -> bool:
+    """Whether no point of `part` is above the plane through `point` with `normal`.
+
+    A ball on that plane can't hit it.
+    """
     return False
 
 
 @generic
-def is_plane(kind: KindRecord, part: int) -> bool:
-    """Whether `nearest` gives the same normal everywhere: of an endless plane, solid below."""
-    return False
+def face_plane(kind: KindRecord, part: int, point: Vector) -> tuple[float, Vector]:
+    """Distance of `point` from the plane of a `part` of FACE_FORM, and the normal towards it.
+
+    `nearest` is at least as far.
+    """
+    return 0.0, ZERO
 
 
 @generic
