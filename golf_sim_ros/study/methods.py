@@ -36,10 +36,12 @@ TRUTH = Preset(
     METHODS['dormand_prince'].record(1e-13), ACCURACY['reference'].limits._replace(settle=1e-5)
 )
 # Limits of Dormand-Prince's dial. So they go through those of the presets, as powers of the
-# tolerance [m]; bounces from MOST_SETTLE on are always followed one by one.
+# tolerance [m]; bounces from MOST_SETTLE on are always followed one by one, and no path is off by
+# more than MOST_PATH.
 PATH = 10.0**-3.5, 0.65
 SETTLE = 10.0**0.24, 0.324
 MOST_SETTLE = 0.5  # m/s
+MOST_PATH = 1e-5  # m
 NOT_PLAYED = ((np.nan, np.nan, np.nan),)
 
 
@@ -90,7 +92,8 @@ def dial(tolerance: float) -> Preset:
     """
     (path, of_path), (settle, of_settle) = PATH, SETTLE
     limits = ACCURACY['reference'].limits._replace(
-        settle=min(settle * tolerance**of_settle, MOST_SETTLE), path=path * tolerance**of_path
+        settle=min(settle * tolerance**of_settle, MOST_SETTLE),
+        path=min(path * tolerance**of_path, MOST_PATH),
     )
     return Preset(METHODS['dormand_prince'].record(tolerance), limits)
 

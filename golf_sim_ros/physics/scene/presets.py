@@ -40,7 +40,7 @@ class Preset(NamedTuple):
 ACCURACY = {
     'sketch': Preset(
         DormandPrince(2e-2),
-        Limits(settle=0.5, path=2.5e-5),
+        Limits(settle=0.5, path=1e-5),
         touch=0.5,
         rest=1.0,
         use='watching many shots at once',
