@@ -16,12 +16,13 @@
 
 from golf_sim_ros.course import CourseError, load_course, load_round
 from golf_sim_ros.drawing.zone_triangles import curved, flat, in_region, last_zone, sheet
-from golf_sim_ros.physics import ground_height, Shot, simulate, World
+from golf_sim_ros.physics import Course, ground_height, Patch, Plane, Shot, simulate, World
 from golf_sim_ros.physics.geometry import polygon
 from golf_sim_ros.physics.geometry.zone import Zone
 from golf_sim_ros.physics.jit import entry
 from golf_sim_ros.physics.properties.material import Material
 import numpy as np
+from oracles import RADIUS
 import pytest
 
 BOX, RING, HOLE = (((-r, -r), (r, -r), (r, r), (-r, r)) for r in (30.0, 20.0, 10.0))
@@ -132,6 +133,32 @@ def test_the_distance_from_a_region_is_never_more_than_it_is():
         beside_region(table, 0, 0.0, 0.0)[0] == 10.0
         and beside_region(table, 1, 0.0, 15.0)[0] == 5.0
     )
+
+
+@entry
+def contains_box(table, i, low, high):
+    """Whether a polygon contains a box."""
+    return polygon.contains_box(table, i, low, high)
+
+
+def test_a_box_is_in_a_polygon_where_all_of_it_is():
+    bent = ((0, 0), (4, 0), (4, 1), (1, 1), (1, 3), (4, 3), (4, 4), (0, 4))
+    star = ((0, 0), (2, 1), (4, 0), (3, 2), (4, 4), (2, 3), (0, 4), (1, 2))
+    table = polygon.polygons([bent, star, bent[::-1]])
+    grid = np.stack(np.meshgrid(*2 * [np.linspace(0.0, 1.0, 21)]), -1).reshape(-1, 2)
+    rng = np.random.default_rng(3)
+    told = np.zeros(2)
+    for i, outline in enumerate((bent, star, bent[::-1])):
+        for _ in range(1000):
+            middle, half = rng.uniform(0, 4, 2), rng.uniform(0, 0.7, 2)
+            low, high = middle - half, middle + half
+            within = in_region(outline, (), *(low + grid * (high - low)).T).all()
+            contained = contains_box(table, i, (*low, 0.0), (*high, 0.0))
+            # A corner of the outline may poke into the box between the places of the grid.
+            pokes = any((low < corner).all() and (corner < high).all() for corner in outline)
+            assert contained == (within and not pokes)
+            told[int(contained)] += 1
+    assert (told > 100).all()
 
 
 @pytest.mark.parametrize(
@@ -293,3 +320,30 @@ def test_ground_that_is_not_flat_is_painted_up_to_the_edges_of_zones():
     for pieces in painted.values():
         east, north, up = pieces.reshape(-1, 3).T
         np.testing.assert_allclose(up, 0.1 * east + 0.2 * north, atol=1e-9)
+
+
+@pytest.mark.parametrize('tilt', [0.0, 0.05])
+def test_a_ball_stays_within_the_walls_of_the_pit_that_it_falls_into(tilt):
+    pit = np.array(((0, -2), (6, -2), (6, 4), (4, 4), (4, 0), (0, 0)), float)
+    up = np.array((-tilt, 0.0, 1.0)) / np.hypot(tilt, 1.0)
+    ground = Plane(normal=tuple(up), cut=(pit.tolist(),))
+    floor = Patch((3.0, 1.0, -1.0), length=9.0, width=9.0)
+    world = World(Course((ground, floor), tee=(-5.0, 0.0)))
+    ways = np.roll(pit, -1, 0) - pit
+    rng = np.random.default_rng(4)
+    deep = 0
+    for _ in range(40):
+        start = (*rng.uniform((4.3, -1.7), (5.7, -0.3)), rng.uniform(-0.9, 0.3))
+        world.place('ball', start, (*rng.uniform(-8, 8, 2), rng.uniform(-3, 3)))
+        for _ in range(100):
+            world.advance(0.02)
+            place = np.array(world['ball'].position)
+            height = place @ up
+            if -1.5 < height < -0.1:  # else at the rim, or out of the pit
+                deep += 1
+                foot = (place - height * up)[:2]
+                share = ((foot - pit) * ways).sum(1) / (ways**2).sum(1)
+                beside = foot - pit - np.clip(share, 0.0, 1.0)[:, np.newaxis] * ways
+                assert in_region(pit, (), *foot) and place[2] > -1.0 + 0.98 * RADIUS
+                assert np.hypot(*beside.T).min() > 0.98 * RADIUS
+    assert deep > 1000

@@ -43,12 +43,24 @@ def first_water_entry(waters: Waters, ball: BallRecord, until: float) -> tuple[f
     who = 0
     lowest, _ = extent_along(ball, 2)
     for i in range(len(waters.levels)):
-        if lowest < waters.levels[i]:  # else its control points, and so the curve, are above
+        # else its control points, and so the curve, are above, or beside
+        if lowest < waters.levels[i] and passes_outline(waters, i, ball):
             time, enters = water_entry_time(waters, i, ball, best)
             if enters:
                 best = time
                 who = i + 1
     return best, who
+
+
+@kernel
+def passes_outline(waters: Waters, i: int, ball: BallRecord) -> bool:
+    """Whether the control points of the segment and water `i` have boxes in plan that meet."""
+    box = waters.outlines.outlines.boxes[i]
+    for axis in range(2):
+        low, high = extent_along(ball, axis)
+        if high < box[axis] or box[axis + 2] < low:
+            return False
+    return True
 
 
 @kernel

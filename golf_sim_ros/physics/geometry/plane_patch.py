@@ -36,7 +36,7 @@ import numpy as np
 from . import surface_protocol
 from .patch import Patch
 from .plane import Plane
-from .polygon import inside, Outline, Polygons, polygons, sides
+from .polygon import contains_box, inside, Outline, Polygons, polygons, sides
 from ..jit import kernel
 from ..kernel_types import StructRecord, Vector
 from ..mechanics.vector import (
@@ -194,7 +194,8 @@ def _next_part(kind: Flats, part: int, low: Vector, high: Vector) -> int:
     faces = len(kind.faces)
     while part < faces + len(kind.edges):
         if part < faces:
-            if meets(kind.faces[part], low, high):
+            face = kind.faces[part]
+            if meets(face, low, high) and not is_cut_away(kind, face, low, high):
                 break
         elif meets(kind.edges[part - faces], low, high):
             break
@@ -301,6 +302,15 @@ def in_a_cut(flat: Flats, face: StructRecord, x: float, y: float) -> bool:
     """Whether the surface of `face` is cut away at `x`, `y`."""
     for i in range(face['first_cut'], face['last_cut']):
         if inside(flat.cuts, i, x, y):
+            return True
+    return False
+
+
+@kernel
+def is_cut_away(flat: Flats, face: StructRecord, low: Vector, high: Vector) -> bool:
+    """Whether a level `face` has nothing over or below a box: a cut contains that in plan."""
+    for i in range(face['first_cut'], face['last_cut']):
+        if abs(face['normal'][2]) == 1.0 and contains_box(flat.cuts, i, low, high):
             return True
     return False
 

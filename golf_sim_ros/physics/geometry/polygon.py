@@ -19,7 +19,8 @@ from typing import Iterable, NamedTuple, Sequence
 
 import numpy as np
 
-from ..jit import kernel
+from ..jit import kernel, shared
+from ..kernel_types import Vector
 
 # corners x, y of a polygon in plan, in their order
 Outline = Sequence[Sequence[float]]
@@ -124,6 +125,35 @@ def inside(table: Polygons, i: int, x: float, y: float) -> bool:
             odd = not odd
         j = k
     return odd
+
+
+@shared
+def contains_box(table: Polygons, i: int, low: Vector, high: Vector) -> bool:
+    """Whether polygon `i` contains all of a box in plan: no side meets it, and a corner is in."""
+    box = table.boxes[i]
+    if not (box[0] <= low[0] and high[0] <= box[2] and box[1] <= low[1] and high[1] <= box[3]):
+        return False
+    x, y = 0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])
+    half_x, half_y = 0.5 * (high[0] - low[0]), 0.5 * (high[1] - low[1])
+    first = table.first[i]
+    last = table.first[i + 1]
+    j = last - 1
+    for k in range(first, last):
+        ax = table.corners[j, 0] - x
+        ay = table.corners[j, 1] - y
+        bx = table.corners[k, 0] - x
+        by = table.corners[k, 1] - y
+        apart = (
+            min(ax, bx) > half_x
+            or max(ax, bx) < -half_x
+            or min(ay, by) > half_y
+            or max(ay, by) < -half_y
+            or abs(ax * by - ay * bx) > half_x * abs(by - ay) + half_y * abs(bx - ax)
+        )
+        if not apart:
+            return False
+        j = k
+    return inside(table, i, low[0], low[1])
 
 
 @kernel
