@@ -25,7 +25,7 @@ Parts come in pairs: the side, rim and wall in one, hit from within and above; a
                '------- bottom ------'       below it the wall
 """
 
-from math import atan2, cos, hypot, pi, sin, sqrt
+from math import cos, hypot, pi, sin, sqrt
 from typing import Mapping, NamedTuple, Sequence
 
 import numpy as np
@@ -45,6 +45,7 @@ CUP_SAMPLES = 64  # of the ground's height around the rim
 UNEVEN = 0.005  # m: where the ground deviates more from the rim's curve there can be no hole
 MOST_CUP_STEPS = 30  # of Newton's method
 MOST_CUP_TURN = 0.3  # rad in one of them
+LAST_CUP_TURN = 1e-12  # rad: the last of them; what it leaves goes with its square
 
 # A plastic liner in soil. Estimates: between turf, 0.5, and a hard plastic plate, 0.8, and well
 # damped; friction as of plastic on plastic.
@@ -186,10 +187,22 @@ def rim_height(cup: StructRecord, c: float, s: float) -> float:
 
 
 @kernel
-def rim_at(cup: StructRecord, angle: float) -> tuple[Vector, Vector, Vector]:
-    """Point of the rim at `angle`, and its first and second derivative by the angle."""
-    c = cos(angle)
-    s = sin(angle)
+def polar_from_axis(cup: StructRecord, point: Vector) -> Vector:
+    """Polar coordinates of `point` about the axis: distance, and cosine and sine of the angle."""
+    dx = point[0] - cup['center'][0]
+    dy = point[1] - cup['center'][1]
+    away = sqrt(dx * dx + dy * dy)
+    if away == 0.0:
+        return 0.0, 1.0, 0.0
+    return away, dx / away, dy / away
+
+
+@kernel
+def rim_at(cup: StructRecord, c: float, s: float) -> tuple[Vector, Vector, Vector]:
+    """Point of the rim in the direction of cosine `c` and sine `s`.
+
+    And its first and second derivative by the angle.
+    """
     r = cup['radius']
     w = cup['rim']
     twice = c * c - s * s
@@ -200,53 +213,44 @@ def rim_at(cup: StructRecord, angle: float) -> tuple[Vector, Vector, Vector]:
 
 
 @kernel
-def first_guess(cup: StructRecord, point: Vector) -> float:
-    """Guess the angle of the rim's nearest point: that of `point`, or the best of eight."""
-    dx = point[0] - cup['center'][0]
-    dy = point[1] - cup['center'][1]
-    best = atan2(dy, dx)
-    if dx * dx + dy * dy > 0.25 * cup['radius'] * cup['radius']:
-        return best
+def first_guess(cup: StructRecord, point: Vector) -> tuple[float, float]:
+    """Guess the direction of the rim's nearest point: that of `point`, or the best of eight."""
+    away, c, s = polar_from_axis(cup, point)
+    if away > 0.5 * cup['radius']:
+        return c, s
+    best = 1.0, 0.0
     least = 1e300
     for i in range(8):
-        place, _, _ = rim_at(cup, i * pi / 4.0)
+        c, s = cos(i * pi / 4.0), sin(i * pi / 4.0)
+        place, _, _ = rim_at(cup, c, s)
         away = length(sub(point, place))
         if away < least:
             least = away
-            best = i * pi / 4.0
+            best = c, s
     return best
 
 
 @kernel
-def nearest_on_rim(cup: StructRecord, point: Vector) -> float:
-    """Angle of the rim's point nearest to `point`.
+def nearest_on_rim(cup: StructRecord, point: Vector) -> tuple[float, float]:
+    """Cosine and sine of the direction of the rim's point nearest to `point`.
 
     By Newton's method on half the squared distance.
     """
-    angle = first_guess(cup, point)
+    c, s = first_guess(cup, point)
     for _ in range(MOST_CUP_STEPS):
-        place, ahead, bend = rim_at(cup, angle)
+        place, ahead, bend = rim_at(cup, c, s)
         offset = sub(place, point)
         fall = -dot(ahead, offset)
         rise = dot(ahead, ahead) + dot(bend, offset)
         # Where the second derivative is negative, no minimum is near: the longest step downhill.
         step = fall / rise if rise > 0.0 else (MOST_CUP_TURN if fall > 0.0 else -MOST_CUP_TURN)
         step = min(max(step, -MOST_CUP_TURN), MOST_CUP_TURN)
-        angle += step
-        if abs(step) <= 1e-15:
+        # Turned by the arc tangent of the step, which takes no function of an angle.
+        size = sqrt(1.0 + step * step)
+        c, s = (c - s * step) / size, (s + c * step) / size
+        if abs(step) <= LAST_CUP_TURN:
             break
-    return angle
-
-
-@kernel
-def polar_from_axis(cup: StructRecord, point: Vector) -> Vector:
-    """Polar coordinates of `point` about the axis: distance, and cosine and sine of the angle."""
-    dx = point[0] - cup['center'][0]
-    dy = point[1] - cup['center'][1]
-    away = sqrt(dx * dx + dy * dy)
-    if away == 0.0:
-        return 0.0, 1.0, 0.0
-    return away, dx / away, dy / away
+    return c, s
 
 
 @surface_protocol.parts.register(Cups)
@@ -280,7 +284,8 @@ def _nearest(kind: Cups, part: int, point: Vector) -> tuple[float, Vector]:
         if away > cup['radius']:
             return away - cup['radius'], (c, s, 0.0)
         return cup['radius'] - away, (-c, -s, 0.0)
-    place, _, _ = rim_at(cup, nearest_on_rim(cup, point))
+    c, s = nearest_on_rim(cup, point)
+    place, _, _ = rim_at(cup, c, s)
     offset = sub(point, place)
     return length(offset), scale(1.0 / length(offset), offset)
 
@@ -296,7 +301,8 @@ def _turn(kind: Cups, part: int, point: Vector, velocity: Vector) -> Vector:
         return scale(-dot(velocity, around) / max(away, PLANE_ROUNDING), around)
     # The nearest point moves along the rim as well: implicit differentiation of its condition
     # gives its rate.
-    place, ahead, bend = rim_at(cup, nearest_on_rim(cup, point))
+    c, s = nearest_on_rim(cup, point)
+    place, ahead, bend = rim_at(cup, c, s)
     offset = sub(point, place)
     distance = length(offset)
     rate = dot(ahead, velocity) / (dot(ahead, ahead) - dot(bend, offset))
@@ -334,7 +340,8 @@ def _is_below_plane(kind: Cups, part: int, point: Vector, normal: Vector) -> boo
     if part % 2 == 1:
         return abs(normal[2]) > 1.0 - 1e-12 and abs(point[2] - cup['bottom']) <= SAME_HEIGHT
     for i in range(5):  # five points determine the rim's five coefficients
-        place, _, _ = rim_at(cup, i * 2.0 * pi / 5.0)
+        angle = i * 2.0 * pi / 5.0
+        place, _, _ = rim_at(cup, cos(angle), sin(angle))
         if abs(dot(sub(place, point), normal)) > SAME_HEIGHT:
             return False
     return True
